@@ -57,7 +57,9 @@ def checked_at_first(
                 return bare
             if not inspect.isfunction(bare) or hasattr(bare, "checks_at_first"):
                 return bare
-            of_test, left, strict = -1, 0, None
+            of_test = -1
+            left = 0
+            strict = None
 
             @functools.wraps(bare)
             def sometimes(*args: Any, **kwargs: Any) -> Any:

@@ -140,7 +140,9 @@ def colors_of(state: State) -> Color:
 
 def draw(state: State) -> Scene:
     """Show every primitive there is."""
-    k, error, n = state.k, state.error, len(state.p_source)
+    k = state.k
+    error = state.error
+    n = len(state.p_source)
     pull = np.diag([1.0, 1.0, 1.0 + 0.3 * k, 1.0])
     pull[:3, 3] = (-1.0, 0.0, 0.0)
     depth = np.add.outer(np.linspace(1, 2, 48), np.linspace(0, 1, 64) * 0.1 * k)

@@ -26,7 +26,8 @@ class FakePage:
     """
 
     def __init__(self, address: str, query: str = "", headers: dict[str, str] | None = None):
-        self.address, self.query = address.rstrip("/") + "/", query
+        self.address = address.rstrip("/") + "/"
+        self.query = query
         self.headers = {"Origin": re.sub(r"^(https?://[^/]+).*", r"\1", address), **(headers or {})}
         self.run: dict[str, Any] = {}
         self.step: dict[str, Any] = {}
@@ -139,10 +140,8 @@ class FakePage:
         with contextlib.suppress(websockets.ConnectionClosed):
             async for part in self.live:
                 if isinstance(part, bytes):
-                    self.scene_bytes, self.scene_came = (
-                        self.scene_bytes + len(part),
-                        time.perf_counter(),
-                    )
+                    self.scene_bytes = self.scene_bytes + len(part)
+                    self.scene_came = time.perf_counter()
                 else:
                     self.bytes += len(part)
                     self._hear(json.loads(part))
@@ -154,6 +153,7 @@ class FakePage:
         if message["tell"] == "run":
             self.run |= message
         elif message["tell"] == "step":
-            self.step, self.came = message, time.perf_counter()
+            self.step = message
+            self.came = time.perf_counter()
         else:
             self.told.append(message)

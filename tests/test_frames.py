@@ -103,7 +103,8 @@ def check(source: str) -> None:
         if isinstance(node, ast.expr):
             frames_of(node)
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
-            said, is_ = frames_of(node.targets[0]), frames_of(node.value)
+            said = frames_of(node.targets[0])
+            is_ = frames_of(node.value)
             if said is not None and is_ is not None and said != is_:
                 raise FrameError(f"line {node.lineno}: {said} is assigned what is {is_}")
 

@@ -203,7 +203,8 @@ def rule(name: str):
 
 @pytest.mark.parametrize("path", MODULES, ids=name_of)
 def test_imports_point_one_way(path):
-    name, allowed = name_of(path), rule(name_of(path))
+    name = name_of(path)
+    allowed = rule(name_of(path))
     for imported in imports(path):
         top = imported.split(".")[0]
         if top in ("workbench", "lessons") and allowed is not None:

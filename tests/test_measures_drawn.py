@@ -49,7 +49,8 @@ def test_a_dimension_line_says_how_far_points_are_apart():
 
 
 def test_arrows_end_at_their_tips_with_heads_no_longer_than_half_of_them():
-    tails, tips = np.zeros((3, 3)), np.stack([X, 0.02 * Z, 0 * X])
+    tails = np.zeros((3, 3))
+    tips = np.stack([X, 0.02 * Z, 0 * X])
     found = arrows(tails, tips, head=0.06)
     assert np.allclose(found.ends[:3, 1], tips)
     assert len(found.ends) == 3 + 4 + 4  # one of no length has no head

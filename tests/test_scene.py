@@ -178,7 +178,8 @@ def test_a_field_of_magnitudes_ends_where_most_values_are_reached():
 
 
 def test_what_a_chart_makes_shares_its_plot():
-    chart, x = Chart("error", "distance (m)", "px"), np.arange(3.0)
+    chart = Chart("error", "distance (m)", "px")
+    x = np.arange(3.0)
     made = [
         chart.curve(x, x, "a", marks=(1.0,)),
         chart.dots(x, x, "b"),

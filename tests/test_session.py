@@ -93,7 +93,8 @@ def test_a_new_value_abandons_the_run_in_progress():
 def test_the_change_is_noticed_in_the_middle_of_computing():
     session = Session(lesson)
     session.open(lesson, Params(steps=5000))
-    long, extend = session.timeline, session.timeline.extend
+    long = session.timeline
+    extend = session.timeline.extend
 
     def extend_and_change() -> bool:
         session.change(angle=10)
@@ -207,7 +208,8 @@ def test_two_sessions_share_runs_but_not_places():
 
 def test_a_session_with_a_students_function_does_not_share_its_run():
     shared = Timelines()
-    ours, theirs = Session(lesson, shared), Session(lesson, shared, {"turn": lambda angle: 1 / 0})
+    ours = Session(lesson, shared)
+    theirs = Session(lesson, shared, {"turn": lambda angle: 1 / 0})
     finish(ours)
     finish(theirs)
     assert len(ours.timeline) == 6
@@ -262,7 +264,8 @@ def test_a_run_of_the_lesson_s_own_data_puts_own_files_aside_and_reset_and_prese
     name, files, back
 ):
     lesson = catalog()[name]
-    session, mine = Session(lesson), dataclasses.replace(lesson.params(), **files)
+    session = Session(lesson)
+    mine = dataclasses.replace(lesson.params(), **files)
     session.open(lesson, mine)
     for question in lesson.questions:
         session.open(lesson, question.params, 0)

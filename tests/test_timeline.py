@@ -120,7 +120,8 @@ def test_series_grow_with_the_run_and_what_was_read_before_stays():
         scene = {"caption": Caption("A step happened"), "always": Scalar(state, "a", "c")}
         return scene | ({"late": Scalar(-state, "l", "c")} if state >= 150 and state % 2 else {})
 
-    timeline, read = Timeline(bare(lambda params: iter(range(300)), late), Bare()), []
+    timeline = Timeline(bare(lambda params: iter(range(300)), late), Bare())
+    read = []
     assert timeline.series() == {}
     while timeline.extend():
         read.append(timeline.series())

@@ -87,7 +87,8 @@ def test_what_is_picked_has_to_be_shown_and_clickable():
 
 def test_a_plot_is_of_logarithms_where_the_scalar_says():
     values = np.array([100.0, 0.05, 1e-12, 0.0, -1.0, np.nan])
-    plain, log = Scalar(1.0, "e", "e"), Scalar(1.0, "e", "e", log=True)
+    plain = Scalar(1.0, "e", "e")
+    log = Scalar(1.0, "e", "e", log=True)
     np.testing.assert_array_equal(plotted_values(plain, values), values)
     np.testing.assert_allclose(
         plotted_values(log, values), [2.0, np.log10(0.05), -12.0, np.nan, np.nan, np.nan]

@@ -221,7 +221,8 @@ class _Reader:
 
     def end(self) -> int:
         """End the process, if there is one; return how it ended."""
-        process, self.process = self.process, None
+        process = self.process
+        self.process = None
         if process is None:
             return 0
         for pipe in (process.stdin, process.stdout):
@@ -241,7 +242,8 @@ _free: "queue.LifoQueue[_Reader]" = queue.LifoQueue()
 def _begin() -> None:
     """Have readers of our own: a copy of this process must not talk to those of the first one."""
     global _readers, _free
-    _readers, _free = [_Reader() for _ in range(READERS)], queue.LifoQueue()
+    _readers = [_Reader() for _ in range(READERS)]
+    _free = queue.LifoQueue()
     for reader in _readers:
         _free.put(reader)
 

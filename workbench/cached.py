@@ -193,7 +193,9 @@ class _Reads:
     """The fields that one call reads."""
 
     def __init__(self, function: Callable):
-        self.names, self.closed, self._function = set[str](), False, function
+        self.names = set[str]()
+        self.closed = False
+        self._function = function
 
     def note(self, name: str) -> None:
         if self.closed and name not in self.names:
@@ -212,7 +214,8 @@ class _Kept:
     def __init__(self, most: int):
         self._values: OrderedDict[Hashable, Any] = OrderedDict()
         self._read: dict[tuple[str, ...], None] = {}  # each set of fields that some call has read
-        self._lock, self._most = threading.Lock(), most
+        self._lock = threading.Lock()
+        self._most = most
 
     def find(self, values: Values, others: Hashable) -> tuple[tuple[str, ...], Any] | None:
         with self._lock:

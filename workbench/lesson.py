@@ -277,7 +277,8 @@ def course() -> Mapping[str, Lesson]:
     Raises:
         InputError: If two of them have one name; tells both places.
     """
-    lessons, places = list[Lesson](), dict[str, str]()
+    lessons = list[Lesson]()
+    places = dict[str, str]()
     for folder in folders():
         lesson = _lesson_of(folder)
         if lesson is None:
@@ -318,7 +319,8 @@ class Catalog(Mapping[str, Lesson]):
 
     @functools.cached_property
     def _whole(self) -> Mapping[str, Lesson]:
-        lessons, places = dict(course()), {name: f"lessons.{name}" for name in course()}
+        lessons = dict(course())
+        places = {name: f"lessons.{name}" for name in course()}
         for entry in importlib.metadata.entry_points(group="workbench.lessons"):
             place = f"{entry.name} ({entry.value})"
             try:

@@ -152,7 +152,8 @@ class Replay:
 
     def _first(self) -> int:
         """Return the step where it opens, negative from the end."""
-        preset, last = self.lesson.preset_of(self.params), len(self.timeline) - 1
+        preset = self.lesson.preset_of(self.params)
+        last = len(self.timeline) - 1
         is_default = self.params == self.lesson.params()  # which may be a preset too
         if is_default:
             step = self.lesson.opens

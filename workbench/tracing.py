@@ -89,7 +89,9 @@ _listener = _Listener()
 def listening() -> Iterator[Callable[[], Moment | None]]:
     """Record moments in this thread for the length of the block; the value returns the last one."""
     before = (_listener.on, _listener.yielded, _listener.standing)
-    _listener.on, _listener.yielded, _listener.standing = True, None, None
+    _listener.on = True
+    _listener.yielded = None
+    _listener.standing = None
     try:
         yield lambda: _listener.standing and _listener.standing.in_words()
     finally:
@@ -101,7 +103,8 @@ def untraced() -> Iterator[None]:
     """Record nothing in this thread for the length of the block: for runs inside a run whose lines
     nobody looks at.
     """
-    before, _listener.on = _listener.on, False
+    before = _listener.on
+    _listener.on = False
     try:
         yield
     finally:

@@ -36,7 +36,8 @@ class View:
         +z where y is vertical itself (-z from above, so that +x is on the right).
         """
         eye, target, up = (np.array(triple, float) for triple in (self.eye, self.target, self.up))
-        away, up = eye - target, up / np.linalg.norm(up)
+        away = eye - target
+        up = up / np.linalg.norm(up)
         aside = np.cross(away, up)
         if np.linalg.norm(aside) > 1e-3 * np.linalg.norm(away):
             return eye

@@ -26,7 +26,9 @@ PLACE = {"cloud": "scans", "order": "axes", "signs": "signs"}
 
 def of_state(look: Look) -> Caption:
     """Return the caption of a step of the stages `space` and `turn`."""
-    state, rotated, place = look.now, look.now.jacobi, PLACE.get(look.now.moment, "")
+    state = look.now
+    rotated = look.now.jacobi
+    place = PLACE.get(look.now.moment, "")
     match state.moment:
         case "cloud":
             p, q = look.subject.p_target, look.subject.p_source
@@ -75,7 +77,8 @@ def of_state(look: Look) -> Caption:
             return _of_pose(look)
     turns = sure(state.turns)
     words = "{home} of {n} random turns come home; the median error is {median}."
-    home, median = share(float(turns.home.mean()), 0), degrees(float(np.median(turns.degrees)))
+    home = share(float(turns.home.mean()), 0)
+    median = degrees(float(np.median(turns.degrees)))
     return say(words, home=home, n=len(turns.degrees), median=median, place="many turns")
 
 
@@ -88,8 +91,10 @@ def part(left: float) -> Quantity:
 
 
 def _of_pose(look: Look) -> Caption:
-    state, outcome = look.now, sure(look.now.outcome)
-    gap, place = metres(outcome.gap), "frame on frame"
+    state = look.now
+    outcome = sure(look.now.outcome)
+    gap = metres(outcome.gap)
+    place = "frame on frame"
     if not np.isfinite(outcome.rotation):
         words = "Frame on frame: {gap} (RMS) to the nearest points. Nobody knows the truth here."
         return say(words, gap=gap, place=place)

@@ -31,7 +31,8 @@ OFF_TRUTH, GAP = Chart("Rotation error", unit="deg"), Chart("To the nearest poin
 
 def of_space(look: Look) -> dict[str, Primitive]:
     """Return the charts and tables of a step of the stages in space."""
-    state, rotated = look.now, look.now.jacobi
+    state = look.now
+    rotated = look.now.jacobi
     if rotated is None:
         return {}
     turning = state.axes is None
@@ -54,7 +55,8 @@ def of_space(look: Look) -> dict[str, Primitive]:
         if state.before is not None and rotated.plane is not None:
             scene["variance"] = _variance(state.before, rotated.plane, rotated.angle)
         return scene
-    k, three = state.moment, np.arange(1.0, 4.0)
+    k = state.moment
+    three = np.arange(1.0, 4.0)
     if k in ("order", "frame", "signs"):
         scene["variances"] = OF_AXES.bars(three, CM2 * sure(state.variances), "along the axes")
     if state.frames and state.outcome is None:
@@ -76,7 +78,8 @@ def of_space(look: Look) -> dict[str, Primitive]:
         )
         scene["home"] = HOME.scalar(100.0 * float(state.turns.home.mean()), "come home", "truth")
     if k in ("pose", "turns") and look.subject.what == "one box":
-        off_by, side = off_by_side(look.params), look.params.side
+        off_by = off_by_side(look.params)
+        side = look.params.side
         y = float(np.interp(side, SIDES, off_by))
         scene["side/curve"] = SIDE.whole(np.array(SIDES), off_by, "axis 1 off, median", "source")
         scene["side/mark"] = SIDE.mark(side, y, "this box", "source", knob="side")
@@ -120,7 +123,8 @@ def _variance(A: np.ndarray, plane: tuple[int, int], turned: float) -> Curve:
 
 def _lopsided(look: Look) -> dict[str, Primitive]:
     """Return how the points lie along axes 1 and 2, and the third moments before the signs."""
-    state, p = look.now, look.subject.p_source
+    state = look.now
+    p = look.subject.p_source
     along = (
         (p - state.p_centre) @ sure(state.axes) / np.sqrt(np.maximum(sure(state.variances), 1e-12))
     )

@@ -132,7 +132,9 @@ def _candidates(look: Look) -> dict[str, Primitive]:
 
 def _both(look: Look) -> dict[str, Primitive]:
     """Return both scans side by side, each with its axes as lines."""
-    scans, state, scene = look.subject, look.now, dict[str, Primitive]()
+    scans = look.subject
+    state = look.now
+    scene = dict[str, Primitive]()
     both: tuple[tuple[Role, np.ndarray, np.ndarray], ...] = (
         ("target", scans.p_target, state.axes_target),
         ("source", scans.p_source, state.axes),
@@ -161,7 +163,8 @@ def _four(
     """Return four copies of the target, the source laid on each by a motion; those not lit are
     ghosts.
     """
-    scene, radius = dict[str, Primitive](), _radius(scans)
+    scene = dict[str, Primitive]()
+    radius = _radius(scans)
     low = float(scans.p_target[:, 2].min() - scans.p_target[:, 2].mean())
     for k, T_cell in enumerate(_cells(scans)):
         faint = lit is not None and k != lit
@@ -180,7 +183,8 @@ def _four(
 
 def _turned(state: State) -> dict[str, Primitive]:
     """Return the frame as it stands, and the plane in which it was turned, with its angle."""
-    rotated, m = sure(state.jacobi), state.p_centre
+    rotated = sure(state.jacobi)
+    m = state.p_centre
     reach = BEYOND * SIGMAS * np.sqrt(np.maximum(np.diag(rotated.A), 1e-6))
     scene = _lines("frame", m, rotated.V * reach, "turned {}", "xyz")
     if rotated.plane is None:
@@ -188,7 +192,8 @@ def _turned(state: State) -> dict[str, Primitive]:
     i, j = rotated.plane
     c, s = np.cos(rotated.angle), np.sin(rotated.angle)
     before = rotated.V[:, i] * c - rotated.V[:, j] * s  # V G^T: where axis i was
-    about, radius = np.cross(rotated.V[:, i], rotated.V[:, j]), 0.55
+    about = np.cross(rotated.V[:, i], rotated.V[:, j])
+    radius = 0.55
     ring = circle(m, about, radius, "neutral", opacity=0.5)
     p = ring.ends[:, 0]
     name = "plane of the turn"
@@ -204,8 +209,11 @@ def _matrix(state: State) -> dict[str, Primitive]:
     rotated = sure(state.jacobi)
     first = rotated.V @ rotated.A @ rotated.V.T
     most = float(np.abs(first - np.diag(np.diag(first))).max()) or 1.0
-    right, down = np.array([CELL, 0.0, 0.0]), np.array([0.0, 0.0, -CELL])
-    corners, levels, scene = [], [], dict[str, Primitive]()
+    right = np.array([CELL, 0.0, 0.0])
+    down = np.array([0.0, 0.0, -CELL])
+    corners = []
+    levels = []
+    scene = dict[str, Primitive]()
     for i in range(3):
         for j in range(3):
             p = MATRIX + j * right + i * down
@@ -251,7 +259,8 @@ def _missed(scans: Scans, state: State, T_world_source: np.ndarray) -> dict[str,
     """Return lines from where some points came to lie to where they belong, and how far off it
     is.
     """
-    T, outcome = scans.T_target_source, sure(state.outcome)
+    T = scans.T_target_source
+    outcome = sure(state.outcome)
     if T is None or state.turns is not None:
         return {}
     p = scans.p_source[every(len(scans.p_source), MOST_MISSES)]
@@ -270,7 +279,8 @@ def _tips(scans: Scans, state: State) -> dict[str, Primitive]:
     """Return a globe round the target with the tips of axes 1 and 2 after many turns."""
     if state.turns is None:
         return {}
-    m, T = scans.p_target.mean(axis=0), scans.T_world_target
+    m = scans.p_target.mean(axis=0)
+    T = scans.T_world_target
     away = np.repeat(~state.turns.home, 2).astype(np.uint8)
     names = ("axes 1 and 2 where a turn comes home", "where it does not")
     tips = m + TIPS * state.turns.tips.reshape(-1, 3)

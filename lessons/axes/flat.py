@@ -22,7 +22,8 @@ HAND = np.arange(0.0, 181.0, 3.0)  # degrees: where the hand has been after half
 HAND[[24, 54]] = 71.0, 161.0  # the longest shadow and the shortest are among them
 FINE = np.arange(0.0, 180.5, 1.0)
 CM2 = 1e4  # square centimetres in a square metre
-X, LABEL = (0.0, 180.0), "direction of the line"
+X = (0.0, 180.0)
+LABEL = "direction of the line"
 VARIANCE = Chart("Variance of the shadow", LABEL, "cm²", x_range=X, x_unit="deg")
 BOTH = Chart(
     "Variance and covariance", LABEL, "cm²", x_range=X, x_unit="deg", y_range=(-400.0, 1200.0)
@@ -91,7 +92,8 @@ def held(C: np.ndarray, direction: np.ndarray | float) -> tuple[np.ndarray, np.n
     m^2.
     """
     a = np.radians(direction)
-    u, v = np.stack([np.cos(a), np.sin(a)]), np.stack([-np.sin(a), np.cos(a)])
+    u = np.stack([np.cos(a), np.sin(a)])
+    v = np.stack([-np.sin(a), np.cos(a)])
     return np.einsum("i...,ij,j...->...", u, C, u), np.einsum("i...,ij,j...->...", u, C, v)
 
 
@@ -105,11 +107,9 @@ def draw(look: Look[Params, Outline, Held]) -> Scene:
     """Return the points, the line, their shadow on it, and the variance over the direction."""
     outline, state = look.subject, look.now
     a = np.radians(state.direction)
-    u, across, m = (
-        np.array([np.cos(a), np.sin(a)]),
-        np.array([-np.sin(a), np.cos(a)]),
-        outline.centre,
-    )
+    u = np.array([np.cos(a), np.sin(a)])
+    across = np.array([-np.sin(a), np.cos(a)])
+    m = outline.centre
     sd = float(np.sqrt(state.variance))
     shadow = m + np.outer((outline.p - m) @ u, u)
     ends = np.stack([m - SIGMAS * sd * u, m + SIGMAS * sd * u])
@@ -162,7 +162,8 @@ def _ellipse(outline: Outline) -> np.ndarray:
 
 
 def _stray(outline: Outline) -> dict[str, Primitive]:
-    m, a = outline.centre, np.radians(outline.usual)
+    m = outline.centre
+    a = np.radians(outline.usual)
     usual = np.array([np.cos(a), np.sin(a)])
     turned = (outline.longest - outline.usual + 90.0) % 180.0 - 90.0
     ends = np.stack([m - REACH * usual, m + REACH * usual])
@@ -178,7 +179,9 @@ def _stray(outline: Outline) -> dict[str, Primitive]:
 
 def _charts(outline: Outline, state: Held) -> dict[str, Primitive]:
     variance, covariance = (CM2 * values for values in held(outline.C, FINE))
-    x, y, c = state.direction, CM2 * state.variance, CM2 * state.covariance
+    x = state.direction
+    y = CM2 * state.variance
+    c = CM2 * state.covariance
     return {
         "variance/curve": VARIANCE.whole(FINE, variance, "variance", "source"),
         "variance/mark": VARIANCE.mark(x, y, "your hand", "source", steps="direction"),

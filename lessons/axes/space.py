@@ -240,7 +240,8 @@ def outcome_of(
     """Return what comes of laying one frame on the other: R = V_target V_source^T."""
     R = axes_target @ axes.T
     T = motion(R, scans.p_target.mean(axis=0) - R @ p_centre)
-    gap, T_true = gap_of(T, scans), scans.T_target_source
+    gap = gap_of(T, scans)
+    T_true = scans.T_target_source
     if T_true is None:
         return Outcome(T_target_source=T, rotation=float("nan"), axes=None, gap=gap)
     R_true = nearest_rotation(T_true[:3, :3])
@@ -266,7 +267,8 @@ def box_ratio(scans: Scans, axes: np.ndarray) -> float:
     if scans.sides is None or scans.T_target_source is None:
         return float("nan")
     p = scans.p_source
-    along_axes, along_sides = p @ axes, p @ scans.T_target_source[:3, :3].T
+    along_axes = p @ axes
+    along_sides = p @ scans.T_target_source[:3, :3].T
     return float(np.prod(np.ptp(along_axes, axis=0)) / np.prod(np.ptp(along_sides, axis=0)))
 
 
@@ -275,9 +277,11 @@ def many_turns(params: Input, scans: Scans, axes_target: np.ndarray) -> Turns:
     truth.
     """
     is_fresh = params.target is None and params.fresh
-    rng, count = np.random.default_rng(params.seed), FRESH_TURNS if is_fresh else TURNS
+    rng = np.random.default_rng(params.seed)
+    count = FRESH_TURNS if is_fresh else TURNS
     turns = scipy.spatial.transform.Rotation.random(count, rng).as_matrix()
-    R, brought = sure(scans.T_target_source)[:3, :3], []
+    R = sure(scans.T_target_source)[:3, :3]
+    brought = []
     for Q in turns:
         p_source = scans.p_source
         if is_fresh:
@@ -301,7 +305,8 @@ def off_by_side(params: Input) -> np.ndarray:
     medians = []
     with untraced():
         for side in SIDES:
-            rng, sample = np.random.default_rng(params.seed), sampler("box", side)
+            rng = np.random.default_rng(params.seed)
+            sample = sampler("box", side)
             pairs = []
             for _ in range(PAIRS):
                 first, second = (

@@ -84,7 +84,9 @@ def race(scans: Scans, find: Slot | None) -> Iterator[Race]:
     T = np.stack(
         [outcome.T_target_source for outcome in outcomes(scans, p_centre, axes, axes_target)]
     )
-    runs, rmse, running = [_icp(scans, start) for start in T], np.zeros(4), [True] * 4
+    runs = [_icp(scans, start) for start in T]
+    rmse = np.zeros(4)
+    running = [True] * 4
     count = 0
     for count in range(MOST + 1):
         for k in np.flatnonzero(running):

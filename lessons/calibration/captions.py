@@ -86,7 +86,8 @@ def _left_out(names: tuple[str, ...]) -> str:
 
 
 def _constraints(state: State) -> Caption:
-    estimate, view = state.now, state.subject.views[len(state.now.Hs_image_board) - 1]
+    estimate = state.now
+    view = state.subject.views[len(state.now.Hs_image_board) - 1]
     text = f"View {view} adds two rows: {len(estimate.rows)} in all for B = K⁻ᵀK⁻¹."
     if len(estimate.rows) < 4:
         return Caption(f"{text} They leave B open; more views are needed.")
@@ -180,7 +181,8 @@ def _views(state: State, ending: Ending) -> Caption:
 
 
 def _without(state: State, ending: Ending) -> Caption:
-    full, without = sure(state.now.adjustment), sure(ending.without)
+    full = sure(state.now.adjustment)
+    without = sure(ending.without)
     sd = full.deviations[0]
     moved = float(without.K[0, 0] - full.K[0, 0])
     by = (

@@ -40,7 +40,8 @@ def beside(state: State) -> dict[str, Primitive]:
 
 def _camera(state: State) -> Table:
     """Return the numbers that all views share, their ±, and the true ones."""
-    estimate, truth = state.now, state.subject.K
+    estimate = state.now
+    truth = state.subject.K
     assert estimate.K is not None
     numbers = shared_numbers(estimate.K, estimate.lens)
     sd = np.full(9, np.nan) if estimate.adjustment is None else estimate.adjustment.deviations
@@ -48,7 +49,8 @@ def _camera(state: State) -> Table:
     rows = []
     for i, name in enumerate(SHARED):
         decimals = 1 if i < 4 else 4
-        value, deviation = fixed(numbers[i], decimals), ""
+        value = fixed(numbers[i], decimals)
+        deviation = ""
         if 0 < sd[i] < np.inf:
             value, deviation = plus_minus(numbers[i], sd[i], decimals)
         rows.append(

@@ -42,7 +42,8 @@ def run(
     subject = subject_of(params)
     corner = params.corner if params.loss == "Cauchy" else None
     shown = subject.views.index(params.shown) if params.shown in subject.views else 0
-    rms, state = float("nan"), None
+    rms = float("nan")
+    state = None
     for step in calibrate(
         subject.p_board,
         subject.uv,
@@ -56,7 +57,8 @@ def run(
     ):
         if passed_over(step):
             continue
-        before, rms = rms, float(reprojection_rms(step.residuals.reshape(-1, 2)))
+        before = rms
+        rms = float(reprojection_rms(step.residuals.reshape(-1, 2)))
         if not np.isfinite(step.residuals).all():
             raise InputError("the poses put corners at depth 0: nothing can be projected")
         state = State(
@@ -85,11 +87,9 @@ def endings(state: State, corner: float | None) -> Iterator[State]:
     """Yield how well each view fits, what changes without the worst one, and how well all is
     known.
     """
-    subject, refined, worst = (
-        state.subject,
-        sure(state.now.adjustment),
-        int(np.argmax(state.per_view)),
-    )
+    subject = state.subject
+    refined = sure(state.now.adjustment)
+    worst = int(np.argmax(state.per_view))
     views = Ending(kind="views", worst=worst)
     yield replace(state, shown=worst, ending=views)
     if len(subject.views) > 2:

@@ -138,7 +138,8 @@ def distance_ratio(states: Sequence[State]) -> float:
 
 
 def _changed(states: Sequence[State]) -> float:
-    f, t = abs(f_error(states)) > 5.0, abs(distance_ratio(states) - 1) > 0.01
+    f = abs(f_error(states)) > 5.0
+    t = abs(distance_ratio(states) - 1) > 0.01
     return 3.0 if f and t else 0.0 if f else 1.0 if t else 2.0
 
 

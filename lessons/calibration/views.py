@@ -66,7 +66,8 @@ def subject_of(params: Params) -> Subject:
 
 
 def _own(params: Params) -> Subject:
-    pictures, without = None, ()
+    pictures = None
+    without = ()
     if params.corners is None:
         assert params.images is not None
         corners, pictures, without = find_corners(params.images, *params.board)
@@ -191,7 +192,8 @@ def _over_tilt(params: Params) -> tuple[np.ndarray, np.ndarray]:
     free = np.arange(9) < 4 + COEFFICIENTS[params.lens]
     shared = shared_numbers(boards.K_TRUE, boards.LENS_TRUE)
     shared[~free] = 0.0
-    p_board, sd = boards.board_points(), []
+    p_board = boards.board_points()
+    sd = []
     for tilt in TILTS:
         T = _poses(np.random.default_rng(params.seed), params, tilt)
         block = linearised(

@@ -75,7 +75,9 @@ def _missing(state: State) -> Caption:
 
 
 def _start(state: State) -> Caption:
-    numbers, note, params = state.left.numbers, state.yardsticks["5 % larger"], state.params
+    numbers = state.left.numbers
+    note = state.yardsticks["5 % larger"]
+    params = state.params
     values: dict[str, Any] = {
         "chamfer": in_squares(numbers.chamfer),
         "emd": in_metres(numbers.earth_movers),

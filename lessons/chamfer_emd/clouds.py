@@ -47,13 +47,15 @@ def clouds_of(params: Input) -> Clouds:
         )
     rng = np.random.default_rng(params.seed)
     if params.target is None:
-        framed, p_target = Frame(), spread(params.shape, params.points)
+        framed = Frame()
+        p_target = spread(params.shape, params.points)
     else:
         whole = read_cloud(params.target)
         framed = frame(whole, WIDTH, far=FAR)
         p_target = framed.shown(some_points(whole, params.points, rng))
     if params.source is None:
-        p_source, name = changed(p_target, params.start, params.amount, params, rng), _name(params)
+        p_source = changed(p_target, params.start, params.amount, params, rng)
+        name = _name(params)
     else:
         p_source = framed.shown(
             some_points(read_cloud(params.source), params.source_points or params.points, rng)
@@ -68,7 +70,8 @@ def changed(
     """Return a source: a blob, or the target, with as many points as are asked for, after one
     change.
     """
-    built_in, count = params.target is None, params.source_points or len(p_target)
+    built_in = params.target is None
+    count = params.source_points or len(p_target)
     share = min(amount, 1.0)
     if start == "blob":
         return blob(count, amount, bool(np.ptp(p_target[:, 1]) == 0), rng)
@@ -110,7 +113,8 @@ def yardsticks(clouds: Clouds, params: Input) -> tuple[tuple[str, np.ndarray], .
 
 
 def _name(params: Input) -> str:
-    part, metres = percent(min(params.amount, 1.0), 0), f"{brief(params.amount)} m"
+    part = percent(min(params.amount, 1.0), 0)
+    metres = f"{brief(params.amount)} m"
     return {
         "blob": f"a blob of radius {metres}",
         "larger": f"the target {percent(params.amount, 0)} larger",

@@ -135,9 +135,12 @@ def _clouds(state: State) -> dict[str, Primitive]:
 
     So a target point that is covered is an orange dot in a blue ring, however the two round.
     """
-    p_target, left, right = state.clouds.p_target, state.left, state.right
+    p_target = state.clouds.p_target
+    left = state.left
+    right = state.right
     radius = disc(len(p_target))
-    dot, idle = 0.5 * radius, left.served == 0
+    dot = 0.5 * radius
+    idle = left.served == 0
     classes = Classes.marking(idle, "wrong", "nearest to no place", others=("source", "source"))
     # Where several share a place, the one that is somebody's nearest lies on top.
     p_left = nearer(left.flow.p_moving, np.where(idle, 0.75, 1.0))
@@ -152,12 +155,10 @@ def _clouds(state: State) -> dict[str, Primitive]:
 
 
 def _left_edges(state: State) -> dict[str, Primitive]:
-    p, p_target, near, lowers = (
-        state.left.flow.p_moving,
-        state.clouds.p_target,
-        state.left.near,
-        state.params.lowers,
-    )
+    p = state.left.flow.p_moving
+    p_target = state.clouds.p_target
+    near = state.left.near
+    lowers = state.params.lowers
     edges: dict[str, Primitive] = {}
     if lowers != "target to source":
         edges["left/to target"] = Segments(
@@ -220,7 +221,9 @@ def _served(side: Side, name: str, color: Role) -> Curve:
 
 def _numbers_table(state: State) -> Table:
     """Return every distance of both clouds to the target."""
-    left, right, params = state.left.numbers, state.right.numbers, state.params
+    left = state.left.numbers
+    right = state.right.numbers
+    params = state.params
     rows = [
         ("Chamfer, mean of squares, m²", *_both(left.chamfer, right.chamfer)),
         ("… only source to target, m²", *_both(left.to_target, right.to_target)),

@@ -8,7 +8,9 @@ from lessons.chamfer_emd.state import Side, State
 from workbench.geometry.polylines import between
 from workbench.scene import Classes, Label, Points, Primitive, Segments
 
-WIDTH, TARGET_ROW, SOURCE_ROW = 2.1, -1.3, -2.0
+WIDTH = 2.1
+TARGET_ROW = -1.3
+SOURCE_ROW = -2.0
 
 
 def unrolled(

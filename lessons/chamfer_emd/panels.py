@@ -43,7 +43,8 @@ def clouds_in(
     side: str, p: np.ndarray, p_target: np.ndarray, T_world_side: np.ndarray
 ) -> dict[str, Primitive]:
     """Return a cloud over the ring in a panel; the legend names those of the left one."""
-    radius, named = disc(len(p_target)), side == "left"
+    radius = disc(len(p_target))
+    named = side == "left"
     return {
         f"{side}/target": Points(
             p_target, "target", radius, T_world_side, name="ring" if named else ""

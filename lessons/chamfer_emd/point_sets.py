@@ -29,12 +29,14 @@ def shape_at(shape: Shape, t: Float[np.ndarray, "n"], count: int) -> Cloud:
         count: Of how many even points the winding of discs, sphere and torus is made.
     """
     t = np.mod(t, 1.0)
-    zero, turn = np.zeros_like(t), _GOLDEN * count * t
+    zero = np.zeros_like(t)
+    turn = _GOLDEN * count * t
     if shape == "ring":
         return np.column_stack([np.cos(2 * np.pi * t), zero, np.sin(2 * np.pi * t)])
     if shape == "two discs":
         right = t >= 0.5
-        r, x = 0.42 * np.sqrt(2 * t - right), np.where(right, 0.55, -0.55)
+        r = 0.42 * np.sqrt(2 * t - right)
+        x = np.where(right, 0.55, -0.55)
         return np.column_stack([x + r * np.cos(turn), zero, r * np.sin(turn)])
     if shape == "spiral":
         r = 0.15 + 0.85 * _where_reached(

@@ -85,7 +85,8 @@ def _far_why(states: States) -> str:
 
 
 def _blur_why(states: States) -> str:
-    state, pairs = states[ASKED_BLUR], states.subject
+    state = states[ASKED_BLUR]
+    pairs = states.subject
     return (
         f"It says {metres(state.costs[1])}, where the exact distance is"
         f" {brief(1000 * pairs.exact[1], 2)} mm. Every dot pays a little to many places, however"

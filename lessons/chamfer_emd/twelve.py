@@ -85,7 +85,8 @@ class Held:
 
 def setup(params: Input) -> Twelve:
     """Return the places and the numbers of all heaps."""
-    target, heaps = ring(), [heap(params.dot, k) for k in range(COUNT)]
+    target = ring()
+    heaps = [heap(params.dot, k) for k in range(COUNT)]
     return Twelve(
         target,
         np.array([chamfer(p, target) for p in heaps]),
@@ -115,7 +116,8 @@ def run(params: Input, subject: Twelve, measures: Measures) -> Iterator[Held]:
 
 def draw(look: Look[Input, Twelve, Held]) -> Scene:
     """Return both rings with the partners that each rule gives, and both numbers over the heap."""
-    state, target = look.now, look.subject.p_target
+    state = look.now
+    target = look.subject.p_target
     near, matching = nearest_both_ways(state.p, target), best_matching(state.p, target)
     heaps = np.arange(float(COUNT))
     of_chamfer, of_emd = look.subject.shares
@@ -154,7 +156,8 @@ def draw(look: Look[Input, Twelve, Held]) -> Scene:
 
 def _ring(side: str, state: Held, target: np.ndarray) -> dict[str, Primitive]:
     """Return the places and the dots of one panel, and how many share a place."""
-    T, named = T_WORLD[side], side == "left"
+    T = T_WORLD[side]
+    named = side == "left"
     above = np.array([0.0, 0.0, 0.02])
     first, counts = shared_places(state.p, 1e-6)
     scene: dict[str, Primitive] = {

@@ -86,10 +86,8 @@ def _placed(placed: Placed, system: Coordinates, params: Params) -> str:
             f"{params.system.capitalize()} coordinates {', '.join(system.names)}: each says how far"
             " to go from the origin to the point, on a way of its own."
         )
-    name, value = (
-        system.names[placed.moves],
-        quantity(float(placed.c[placed.moves]), system.angles[placed.moves]),
-    )
+    name = system.names[placed.moves]
+    value = quantity(float(placed.c[placed.moves]), system.angles[placed.moves])
     return f"{name} = {value}, {WAYS[name]}: the point is at {coordinates(placed.p, 2)} m."
 
 
@@ -165,7 +163,8 @@ def _scaled(ray: Scaled) -> str:
             f" averaged entry by entry: that is {length(float(np.linalg.norm(mean - (a + b) / 2)))}"
             " from the middle of the two points. Divide by w first."
         )
-    w, v = float(ray.p_h[3]), coordinates(ray.p_h, 2)
+    w = float(ray.p_h[3])
+    v = coordinates(ray.p_h, 2)
     if w == 0:
         return (
             f"{v}, w = 0: no point has this name, but a direction has. It is the point at infinity"
@@ -190,7 +189,8 @@ def _scattered(dots: Scattered, state: State) -> Caption:
             f"{counted(len(dots.p), 'point')} on the unit sphere: {how} drawn evenly. Compare poles"
             " and equator."
         )
-    share, sigma = in_caps(dots.p), np.sqrt(CAPS_AREA * (1 - CAPS_AREA) / len(dots.p))
+    share = in_caps(dots.p)
+    sigma = np.sqrt(CAPS_AREA * (1 - CAPS_AREA) / len(dots.p))
     text = (
         f"{percent(share, 1)} of the points lie within 30° of a pole, in {percent(CAPS_AREA, 1)} of"
         " the area"
@@ -203,10 +203,8 @@ def _scattered(dots: Scattered, state: State) -> Caption:
 
 
 def _ranged(radar: Ranged, state: State) -> Caption:
-    sigma, off = (
-        angle(state.params.bearing_noise),
-        length(float(np.linalg.norm(radar.mean - radar.true))),
-    )
+    sigma = angle(state.params.bearing_noise)
+    off = length(float(np.linalg.norm(radar.mean - radar.true)))
     text = (
         f"{counted(len(radar.p), 'measurement')}, bearings with σ = {sigma}: their mean is {off}"
         " from the point"
@@ -224,7 +222,8 @@ def kilometres(metres: float) -> str:
 
 
 def _travelled(trip: Travelled, places: Places) -> Caption:
-    start, end = places.names[0], places.names[-1]
+    start = places.names[0]
+    end = places.names[-1]
     if trip.means is not None:
         text = (
             f"The mean of the latitudes and longitudes is {kilometres(trip.apart)} from the middle"
@@ -321,7 +320,8 @@ def _met(meeting: Met, state: State) -> Caption:
             f"{coordinates(meeting.x_h, 3)} is no point of both lines. It is wrong.", "wrong"
         )
     x, y, w = meeting.x_h / np.abs(meeting.x_h).max()
-    degrees, tilt = angle_of(meeting), float(meeting.H[2, 0])
+    degrees = angle_of(meeting)
+    tilt = float(meeting.H[2, 0])
     if tilt:
         where = f"({brief(x / w)}, {fixed(y / w, 2)}) m" if w else "infinity still"
         text = (

@@ -82,7 +82,8 @@ def draw(state: State) -> Scene:
 
 
 def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
-    step, p = state.now, np.array(state.params.point)
+    step = state.now
+    p = np.array(state.params.point)
     scene: dict[str, Primitive] = {"frame": RINGS, "axis": AXIS}
     if not isinstance(step, Walked):
         scene["point"] = Points(p[None], "target", 0.03, name="the point")
@@ -251,7 +252,8 @@ def _raised(arc: Raised) -> dict[str, Primitive]:
     """
     latitude = arc.latitude[-1:]
     rho, z = FLAT.meridian(latitude)[0]
-    p, turn = np.array([rho, 0.0, z]), np.linspace(-np.pi, np.pi, 145)
+    p = np.array([rho, 0.0, z])
+    turn = np.linspace(-np.pi, np.pi, 145)
     outline = FLAT.meridian(turn)
     foot = p - (z / np.sin(latitude[0]) if z > 0 else 0.35) * np.array(
         [np.cos(latitude[0]), 0.0, np.sin(latitude[0])]

@@ -102,7 +102,8 @@ def met(meeting: Met) -> dict[str, Primitive]:
         scene["horizon"] = Segments(at_height(ends[0], 1.0)[None], "highlight", 4, name="horizon")
     stops = meeting.places[:, :2] / meeting.places[:, 2:]
     scene["stops"] = Points(at_height(stops, 1.0), "target", 0.05, name="four points of l")
-    x_h, right = meeting.x_h, lies_on_both(meeting)
+    x_h = meeting.x_h
+    right = lies_on_both(meeting)
     if np.isfinite(x_h).all() and x_h.any():
         n = (
             x_h

@@ -53,7 +53,8 @@ def run(
     great_circle_distance: Distance = great_circle_distance,
 ) -> Iterator[State]:
     """Yield the steps of one stage."""
-    rng, subject = np.random.default_rng(params.seed), None
+    rng = np.random.default_rng(params.seed)
+    subject = None
     steps: Iterator[Now]
     if params.stage == "point":
         yield from point_stage(params, spherical_from_cartesian)
@@ -71,7 +72,8 @@ def run(
         steps = to_the_pole(PLANETS[params.planet], 18)
     elif params.stage == "mount":
         beside = HEIGHT * np.tan(np.radians(params.miss))
-        start, v = np.array([0.0, beside, HEIGHT]), np.array([SPEED, 0.0, 0.0])
+        start = np.array([0.0, beside, HEIGHT])
+        v = np.array([SPEED, 0.0, 0.0])
         steps = follow(start, v, moments(beside / SPEED), spherical_from_cartesian)
     elif params.stage == "projective":
         angles = [angle for angle in TURNS if angle > params.angle_between] + [params.angle_between]

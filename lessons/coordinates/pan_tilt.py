@@ -74,11 +74,9 @@ def follow(
     looks = cartesian_from_spherical(np.column_stack([np.ones(len(p)), middle[:, 1:]]))
     across = np.linalg.norm(np.cross(p, v), axis=1)
     off = np.arctan2(np.linalg.norm(np.cross(looks, p), axis=1), (looks * p).sum(axis=1))
-    pan_rate, tilt_rate, sight_rate = (
-        turned[:, 2] / INSTANT,
-        -turned[:, 1] / INSTANT,
-        across / (p * p).sum(axis=1),
-    )
+    pan_rate = turned[:, 2] / INSTANT
+    tilt_rate = -turned[:, 1] / INSTANT
+    sight_rate = across / (p * p).sum(axis=1)
     for k in range(len(times)):
         yield Followed(
             time=float(times[k]),

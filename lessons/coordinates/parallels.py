@@ -103,7 +103,8 @@ def turn_parallel(
     for angle, tilt in [(angle, 0.0) for angle in angles] + [(angles[-1], tilt) for tilt in tilts]:
         lines = np.array([[0.0, 1.0, 0.0], [np.sin(angle), np.cos(angle), -gap * np.cos(angle)]])
         H = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [tilt, 0.0, 1.0]])
-        moved, moved_places = map_lines(H, lines), places @ H.T
+        moved = map_lines(H, lines)
+        moved_places = places @ H.T
         t = moved_places[:, 0] / moved_places[:, 2]
         yield Met(
             angle=angle,

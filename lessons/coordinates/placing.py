@@ -55,7 +55,8 @@ def place(c: Float[np.ndarray, "3"], system: Coordinates, steps: int) -> Iterato
         system: What they mean.
         steps: Into how many steps each coordinate is cut.
     """
-    reached, path = np.zeros(3), np.zeros((1, 3))
+    reached = np.zeros(3)
+    path = np.zeros((1, 3))
     yield Placed(c=reached, p=path[0], path=path)
     for k in range(3):
         for step in range(steps):
@@ -169,7 +170,8 @@ def scatter(counts: Iterable[int], even: Even, rng: np.random.Generator) -> Iter
         rng: Chance.
     """
     counts = tuple(counts)
-    u, azimuth = rng.random(max(counts)), rng.uniform(-np.pi, np.pi, max(counts))
+    u = rng.random(max(counts))
+    azimuth = rng.uniform(-np.pi, np.pi, max(counts))
     polar = np.pi * u if even == "angle" else np.arccos(1.0 - 2.0 * u)
     p = cartesian_from_spherical(np.column_stack([np.ones(len(u)), polar, azimuth]))
     for n in counts:
@@ -219,9 +221,11 @@ def measure(
     bearing = sigma * rng.standard_normal(max(counts))
     r = distance + sigma_range * rng.standard_normal(max(counts))
     p = np.column_stack([r * np.cos(bearing), r * np.sin(bearing)])
-    true, shrink = np.array([distance, 0.0]), np.exp(-(sigma**2) / 2)
+    true = np.array([distance, 0.0])
+    shrink = np.exp(-(sigma**2) / 2)
     for n in counts:
-        mean, ahead = p[:n].mean(axis=0), bearing[:n].mean()
+        mean = p[:n].mean(axis=0)
+        ahead = bearing[:n].mean()
         yield Ranged(
             true=true,
             p=p[:n],

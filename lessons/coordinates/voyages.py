@@ -55,9 +55,11 @@ def travel(
         steps: How many steps the ways take.
         great_circle_distance: Measures every piece of a way.
     """
-    start, end = places[0], places[-1]
+    start = places[0]
+    end = places[-1]
     t = np.linspace(0.0, 1.0, PIECES * steps + 1)
-    straight, circle = start + t[:, None] * (end - start), great_circle_places(start, end, t)
+    straight = start + t[:, None] * (end - start)
+    circle = great_circle_places(start, end, t)
     along_straight, along_circle = (
         np.concatenate([[0.0], np.cumsum(great_circle_distance(way[:-1], way[1:], EARTH_RADIUS))])
         for way in (straight, circle)

@@ -113,7 +113,8 @@ def _at(k: int) -> np.ndarray:
 
 
 def _ball(k: int, surface: Surface) -> dict[str, Primitive]:
-    p, lines = surface.p + _at(k), edges(surface.faces)
+    p = surface.p + _at(k)
+    lines = edges(surface.faces)
     scene: dict[str, Primitive] = {f"balls/{k + 1}": Mesh(p, surface.faces, "neutral", flat=True)}
     if len(lines) <= MOST_EDGES:
         scene[f"balls/{k + 1} edges"] = Segments(p[lines], "neutral", 1, opacity=0.4)

@@ -88,7 +88,8 @@ def _defect(state: State) -> Caption:
 
 def _gaussian(state: State) -> Caption:
     mesh = state.now
-    v, true = mesh.vertex, state.true("gaussian")
+    v = mesh.vertex
+    true = state.true("gaussian")
     if state.on_border:
         return say(
             NOWHERE.format("K") + _error(state, "K") + _colors(state, mesh.K, K_SCALE, "m⁻²")
@@ -124,7 +125,8 @@ def _mean(state: State) -> Caption:
     mesh = state.now
     if state.on_border:
         return say(NOWHERE.format("H") + _error(state, "H"))
-    H, true = float(mesh.H[mesh.vertex]), state.true("mean")
+    H = float(mesh.H[mesh.vertex])
+    true = state.true("mean")
     if state.params.mistake == "H without the half":
         text = f"Taken whole, the normal's length gives H = {brief(H)} m⁻¹"
         return say(
@@ -152,7 +154,8 @@ def _principal(state: State) -> Caption:
 
 
 def _quadric(state: State) -> Caption:
-    quadrics, v = sure(state.now.quadrics), state.now.vertex
+    quadrics = sure(state.now.quadrics)
+    v = state.now.vertex
     K, H = (float(values[v]) for values in quadrics.curvatures())
     n = int(quadrics.neighbours[v])
     if not np.isfinite(K):

@@ -118,7 +118,8 @@ def _finer(state: State) -> dict[str, Primitive]:
 
 def vertex_table(state: State) -> Table:
     """Return what is known about the vertex, beside the truth."""
-    mesh, v = state.now, state.now.vertex
+    mesh = state.now
+    v = state.now.vertex
     rows: list[tuple[str, str, str]] = []
 
     def add(name: str, values: np.ndarray, unit: str, true: str | None = None) -> None:

@@ -87,7 +87,8 @@ def _arrows(state: State) -> Segments:
     v = state.now.normals_2H
     rows = np.flatnonzero(np.isfinite(v).all(axis=1))
     rows = rows[every(len(rows), MOST_ARROWS)]
-    p, metres = state.now.p[rows], arrow(state)
+    p = state.now.p[rows]
+    metres = arrow(state)
     name = f"2 H n ({brief(100 * metres)} cm for 1 m⁻¹)"
     return Segments(between(p, p + metres * v[rows]), "source", 1.5, name=name)
 

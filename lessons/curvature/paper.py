@@ -147,7 +147,8 @@ def _flat(state: Held) -> dict[str, Primitive]:
 def caption(look: Look[Input, Sheet, Held]) -> Caption:
     """Say what the ring is, and the angle that makes it so."""
     state = look.now
-    angle, place = degrees(state.angle), PLACES.get(state.gap, "")
+    angle = degrees(state.angle)
+    place = PLACES.get(state.gap, "")
     if state.gap == 0:
         return say(
             "Six angles of {angle} make a full turn: the ring lies flat.", angle=angle, place=place

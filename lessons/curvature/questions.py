@@ -44,8 +44,12 @@ def _size_ratio(states: States) -> float:
 
 def _signs(states: States) -> tuple[bool, bool]:
     """Return whether K and H at the vertex have another sign than on the surface as it was made."""
-    mesh, subject = at_stage(states, "mean").now, as_a(Subject, states.subject)
-    K, H, surface, v = mesh.K, mesh.H, sure(subject.truth), mesh.vertex
+    mesh = at_stage(states, "mean").now
+    subject = as_a(Subject, states.subject)
+    K = mesh.K
+    H = mesh.H
+    surface = sure(subject.truth)
+    v = mesh.vertex
     # Made outside out, K is the same and H the other way round (`inside_out`).
     return bool(K[v] * surface.gaussian[v] < 0), bool(H[v] * -surface.mean[v] < 0)
 

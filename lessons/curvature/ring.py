@@ -32,7 +32,8 @@ def neighbours(mesh: Measured) -> np.ndarray:
 
 def angles(mesh: Measured) -> dict[str, Primitive]:
     """Return the faces around the vertex, an arc in each, and its degrees."""
-    centre, lift = _lifted(mesh), LIFT * edge_length(mesh) * mesh.normals[mesh.vertex]
+    centre = _lifted(mesh)
+    lift = LIFT * edge_length(mesh) * mesh.normals[mesh.vertex]
     v = mesh.p[mesh.ring] - mesh.p[mesh.vertex]
     radius = 0.35 * np.linalg.norm(v, axis=1).min()
     used, name = np.unique(mesh.faces[mesh.ring_faces], return_inverse=True)
@@ -62,7 +63,9 @@ def flattened(mesh: Measured, share: float = 1.0) -> dict[str, Primitive]:
 
     Where it is flat and does not close, the gap is the defect.
     """
-    n, edge, defect = mesh.normals[mesh.vertex], edge_length(mesh), float(mesh.defects[mesh.vertex])
+    n = mesh.normals[mesh.vertex]
+    edge = edge_length(mesh)
+    defect = float(mesh.defects[mesh.vertex])
     inner = len(mesh.ring) == len(mesh.angles)
     rim = mesh.p[mesh.ring] - mesh.p[mesh.vertex]
     rim = np.vstack([rim, rim[:1]]) if inner else rim
@@ -161,7 +164,8 @@ def cell_of(name: str, quads: np.ndarray) -> dict[str, Primitive]:
 
 def pushes(mesh: Measured, scale: float) -> dict[str, Primitive]:
     """Return what each neighbour adds to the mean-curvature normal of the vertex, and their sum."""
-    start, total = _lifted(mesh), mesh.normals_2H[mesh.vertex]
+    start = _lifted(mesh)
+    total = mesh.normals_2H[mesh.vertex]
     scene: dict[str, Primitive] = {}
     if np.isfinite(total).all():
         parts = scale * vertex_pushes(
@@ -196,7 +200,8 @@ def circles(mesh: Measured) -> dict[str, Primitive]:
         ("k₂", "other", mesh.k2, mesh.along_k2),
     )
     for name, role, k, along in both:
-        k, t = float(k[mesh.vertex]), along[mesh.vertex]
+        k = float(k[mesh.vertex])
+        t = along[mesh.vertex]
         if not np.isfinite(k):
             continue
         # An arc of at most a full turn and at most 2.5 m: nearly straight where k is nearly 0.
@@ -219,7 +224,8 @@ def circles(mesh: Measured) -> dict[str, Primitive]:
 
 def patch(state: State) -> dict[str, Primitive]:
     """Return the quadric at the vertex over its two rings, and the vertices it was fitted to."""
-    mesh, quadrics = state.now, sure(state.now.quadrics)
+    mesh = state.now
+    quadrics = sure(state.now.quadrics)
     near = state.two_rings
     scene: dict[str, Primitive] = {
         "fitted": Points(
@@ -242,7 +248,8 @@ def patch(state: State) -> dict[str, Primitive]:
         x, y = r * np.cos(t), r * np.sin(t)
         z = c[0] + c[1] * x + c[2] * y + c[3] * x**2 + c[4] * x * y + c[5] * y**2
         i, j = (g.ravel() for g in np.meshgrid(np.arange(8), np.arange(24), indexing="ij"))
-        a, b = 25 * i + j, 25 * (i + 1) + j
+        a = 25 * i + j
+        b = 25 * (i + 1) + j
         faces = np.concatenate([np.stack([a, b, b + 1], 1), np.stack([a, b + 1, a + 1], 1)])
         p = mesh.p[mesh.vertex] + x * right + y * up + z * n
         scene["patch"] = Mesh(p, faces, "highlight", opacity=0.7, name="quadric")

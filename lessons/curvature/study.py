@@ -26,7 +26,8 @@ def study_of(
     first.
     """
     errors: dict[str, list[float]] = {name: [] for name in ("K", "H", "K_fit", "H_fit")}
-    meshes, off = _meshes(params), []
+    meshes = _meshes(params)
+    off = []
     for made in meshes:
         p, faces = made.surface.p, made.surface.faces
         K = gaussian_curvature(p, faces)

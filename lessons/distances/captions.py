@@ -62,7 +62,8 @@ def way_of(params: Params) -> str:
 
 def _of_front(state: State, front: Front) -> str:
     subject = sure(state.subject)
-    done, trial = int(front.accepted.sum()), int((np.isfinite(front.d) & ~front.accepted).sum())
+    done = int(front.accepted.sum())
+    trial = int((np.isfinite(front.d) & ~front.accepted).sum())
     where = int(subject.free.sum()) if len(subject.free) else len(front.d)
     if front.reach == 0:
         return (
@@ -247,7 +248,8 @@ def _broken(trials: Trials) -> str:
 
 
 def _of_scatter(params: Params, scatter: Scatter) -> Caption:
-    n, out = len(scatter.p), int(scatter.outlier.sum())
+    n = len(scatter.p)
+    out = int(scatter.outlier.sum())
     match scatter.phase:
         case "points":
             second = f" and a second cluster of {out}" if out else ""
@@ -287,7 +289,8 @@ def _of_flags(scatter: Scatter) -> Caption:
             f"{text}. By chance it should be 5 %. The largest distance is"
             f" {fixed(float(scatter.d.max()), 2)}."
         )
-    caught, all_ = int((scatter.flagged & scatter.outlier).sum()), int(scatter.outlier.sum())
+    caught = int((scatter.flagged & scatter.outlier).sum())
+    all_ = int(scatter.outlier.sum())
     mean = fixed(float(scatter.d[scatter.outlier].mean()), 2)
     text += f" and {caught:,} of {all_:,} of the second cluster, at {mean} on average."
     if caught >= 0.9 * all_:

@@ -69,7 +69,8 @@ def _found(state: State, distances: Found) -> dict[str, Primitive]:
     if len(known):
         low, high = float(min(known.min(), 0.0)), float(max(known.max(), 0.0))
         if high - low < 1e-6:
-            low, high = -1.0, 1.0
+            low = -1.0
+            high = 1.0
         scene["errors"] = SPREAD.histogram(known, np.linspace(low, high, 25), "nodes", "truth")
     of_grid = state.params.stage == "grid"
     chart = Chart(

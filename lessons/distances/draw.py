@@ -40,7 +40,8 @@ def draw(state: State) -> Scene:
 
 
 def _ways(state: State) -> dict[str, Primitive]:
-    result, subject = state.now, sure(state.subject)
+    result = state.now
+    subject = sure(state.subject)
     color = _color(state, subject)
     scene: dict[str, Primitive] = {}
     if len(subject.faces):
@@ -197,7 +198,8 @@ def _scatter(scatter: Scatter) -> dict[str, Primitive]:
 
 
 def _landmarks(sights: Landmarks) -> dict[str, Primitive]:
-    seen, new = sights.seen[-len(sights.rims) :], slice(len(sights.true) - len(sights.rims), None)
+    seen = sights.seen[-len(sights.rims) :]
+    new = slice(len(sights.true) - len(sights.rims), None)
     ends = sights.landmarks[sights.true[new]]
     wrong = sights.euclid[new] != sights.true[new]
     missed = sights.mahalanobis[new] != sights.true[new]

@@ -26,7 +26,10 @@ METRICS: tuple[Metric, ...] = (
 )
 HALF, DOTS, QUERIES = 1.0, 30, 500  # half a side of the square, metres; points; queries
 TRIPLES, ROUNDS = 500, 20
-SHARE, WITHIN, FRESH, DIMENSIONS = 0.95, 2.0, 4000, 10
+SHARE = 0.95
+WITHIN = 2.0
+FRESH = 4000
+DIMENSIONS = 10
 SECOND, SPREAD = (
     np.array([1.0, -1.0]) / np.sqrt(2),
     0.1,
@@ -123,10 +126,8 @@ def tried(distance: Distance, rng: np.random.Generator) -> Iterator[Trials]:
     """Yield how many triples so far break the triangle inequality, and how often the other axioms
     are broken.
     """
-    broken, names = (
-        0,
-        ("d(a, a) = 0", "d(a, b) > 0", "d(a, b) = d(b, a)", "d(a, c) ≤ d(a, b) + d(b, c)"),
-    )
+    broken = 0
+    names = ("d(a, a) = 0", "d(a, b) > 0", "d(a, b) = d(b, a)", "d(a, c) ≤ d(a, b) + d(b, c)")
     counts = np.zeros(3)
     for k in range(1, ROUNDS + 1):
         a, b, c = rng.random((3, TRIPLES, 2))
@@ -222,7 +223,10 @@ def sighted(rng: np.random.Generator, mahalanobis: Callable) -> Iterator[Landmar
     by disparity.
     """
     landmarks = np.column_stack([rng.uniform(-1, 1, LANDMARKS), rng.uniform(4, 6, LANDMARKS)])
-    seen, true, near, told = [np.empty((0, 2))], [], [], []
+    seen = [np.empty((0, 2))]
+    true = []
+    near = []
+    told = []
     for _ in range(VIEWS):
         k = rng.integers(LANDMARKS, size=SIGHTS)
         x, z = landmarks[k].T

@@ -34,7 +34,8 @@ def grid(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
     """Yield a front that goes round the wall, and how far off its distances are."""
     subject = subject_of(params)
     if params.neighbours == "march":
-        d, steps = np.empty(0), _marched(params, subject, functions.eikonal_update)
+        d = np.empty(0)
+        steps = _marched(params, subject, functions.eikonal_update)
         for front in steps:
             d = front.d
             yield subject, front
@@ -65,7 +66,8 @@ def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now
     if params.method == "heat":
         shown = corners(subject.p, subject.faces)
         measured = intrinsic_delaunay(subject.p, subject.faces) if params.delaunay else shown
-        time, d = 10.0**params.time * subject.h**2, np.empty(0)
+        time = 10.0**params.time * subject.h**2
+        d = np.empty(0)
         for heat in heat_method(measured, subject.source, time):
             d = heat.d
             yield subject, replace(heat, X=directions_of(shown, heat.u)) if len(heat.X) else heat
@@ -199,7 +201,8 @@ def _as_a_metric(method: HeatMethod) -> tuple[np.ndarray, float]:
 
 def _over_time(subject: Subject, measured: Corners) -> tuple[np.ndarray, np.ndarray]:
     """Return the mean size of the error of heat for each time, per cent."""
-    truth, errors = reference(subject), []
+    truth = reference(subject)
+    errors = []
     for time in TIMES:
         *_, last = heat_method(measured, subject.source, 10.0**time * subject.h**2)
         errors.append(100 * float(np.nanmean(np.abs(relative(last.d, truth)))))
@@ -215,7 +218,8 @@ def finer_grids() -> dict[str, tuple[np.ndarray, np.ndarray]]:
     for side in SIDES:
         x = np.linspace(0.0, 1.0, side)
         p = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
-        truth, h = np.linalg.norm(p, axis=1), 1 / (side - 1)
+        truth = np.linalg.norm(p, axis=1)
+        h = 1 / (side - 1)
         for neighbours in (4, 8, 16):
             edges = geodesics.grid_edges(side, neighbours)
             d = geodesics.shortest_distances(edges, geodesics.edge_lengths(p, edges), len(p), 0)

@@ -21,7 +21,8 @@ from workbench.geometry.meshes import triangles as meshes
 from workbench.geometry.polylines import at_height
 from workbench.knobs import only
 
-OWN_SIZE, MOST_CLOUD = 2.0, 3000
+OWN_SIZE = 2.0
+MOST_CLOUD = 3000
 TOWARDS_EYE = np.array([0.3, -0.8, 0.55])  # where the source is, on a surface
 FROM, TO = (-0.3, 0.0), (0.3, -0.2)  # in the square, the origin being its middle
 SHORTCUT = 3.0  # so many times as far apart on the sheet as in space
@@ -62,7 +63,8 @@ def true_distances(subject: Subject, source: int) -> np.ndarray:
     if len(subject.sheet):
         return np.linalg.norm(subject.sheet - subject.sheet[source], axis=1)
     if subject.is_sphere:
-        p, q = subject.p, subject.p[source]
+        p = subject.p
+        q = subject.p[source]
         return np.linalg.norm(q) * np.arctan2(np.linalg.norm(np.cross(p, q), axis=1), p @ q)
     return np.empty(0)
 
@@ -122,7 +124,8 @@ def ways_in_square(side: int, wall: float, neighbours: int) -> tuple[np.ndarray,
     """Return the edges of the square's grid that no wall cuts, and their lengths."""
     square = _square(side, wall)
     assert square.tip is not None
-    edges, flat = geodesics.grid_edges(side, neighbours), square.p[:, :2]
+    edges = geodesics.grid_edges(side, neighbours)
+    flat = square.p[:, :2]
     if not square.free.all():
         edges = edges[square.free[edges].all(axis=1)]
         edges = edges[~geodesics.crosses_wall(flat[edges], square.tip)]
@@ -231,7 +234,8 @@ def true_way(subject: Subject, goal: int) -> np.ndarray:
     """Return points along the true shortest way to a node, a little above the surface; none where
     nobody knows it.
     """
-    p, q = subject.p[subject.source], subject.p[goal]
+    p = subject.p[subject.source]
+    q = subject.p[goal]
     t = np.linspace(0.0, 1.0, 60)[:, None]
     if subject.tip is not None:
         straight = np.linalg.norm(q - p)

@@ -72,7 +72,8 @@ def _followed(state: State, ray: Followed) -> str:
             f" one point, the epipole {where}, where the line between both centres meets the"
             " picture."
         )
-    z, uv = float(ray.depths[-1]), ray.uv_second[-1]
+    z = float(ray.depths[-1])
+    uv = ray.uv_second[-1]
     where = "Infinitely far along its ray" if np.isinf(z) else f"{length(z)} deep along its ray"
     if np.isnan(uv).any():
         return f"{pixel}: {where} a point lies behind the second camera, which does not see it."
@@ -88,7 +89,8 @@ def _followed(state: State, ray: Followed) -> str:
 
 
 def _equations(state: State, estimate: Related) -> str:
-    n, values = len(state.views.matches), estimate.singular_values
+    n = len(state.views.matches)
+    values = estimate.singular_values
     text = f"{counted(n, 'match', 'matches')}, as many equations for the nine numbers of F"
     text += (
         ", in coordinates about 0 and of size 1." if state.params.normalise else ", in raw pixels."
@@ -140,7 +142,8 @@ def _essential(state: State, estimate: Related) -> str:
 
 
 def _pose(state: State, estimate: Related) -> str:
-    k, n = len(estimate.tested), len(state.views.matches)
+    k = len(estimate.tested)
+    n = len(state.views.matches)
     turn = angle(float(np.degrees(rotation_angle(estimate.tested[-1][:3, :3]))))
     return (
         f"Motion {k} of 4 that E allows, turned by {turn}: it puts {estimate.in_front[-1]:,} of"
@@ -177,7 +180,8 @@ def _rectified(state: State, estimate: Related) -> Caption:
 
 
 def _rows(state: State, estimate: Related) -> str:
-    rectification, sizes = estimate.rectification, state.views.sizes
+    rectification = estimate.rectification
+    sizes = state.views.sizes
     if rectification is None:
         return (
             "The baseline runs along the optical axes: no turn of the cameras makes rows"

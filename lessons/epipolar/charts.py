@@ -88,7 +88,8 @@ def _depths(state: State, estimate: Related) -> dict[str, Primitive]:
     true = sure(state.views.p_first)
     assert estimate.p_first is not None
     order = np.argsort(true[:, 2])
-    z, off = true[order, 2], (state.length * estimate.p_first[:, 2] - true[:, 2])[order]
+    z = true[order, 2]
+    off = (state.length * estimate.p_first[:, 2] - true[:, 2])[order]
     top = 2.0 * z[-1]  # what is farther off is drawn there
     scene: dict[str, Primitive] = {
         "depth errors": DEPTH.dots(z, np.minimum(np.abs(off), top), "points", "source")

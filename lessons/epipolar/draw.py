@@ -128,7 +128,9 @@ def _pictures(state: State) -> dict[str, Primitive]:
     """Return both pictures with matches, the followed pixel, its line, and the lines of some
     matches.
     """
-    result, views, sides = state.now, state.views, _sides(state)
+    result = state.now
+    views = state.views
+    sides = _sides(state)
     scene: dict[str, Primitive] = {}
     kind = (
         "picture" if _rectifying(state) is None else "rectified"

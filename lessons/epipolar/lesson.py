@@ -53,7 +53,8 @@ def run(
     believed = np.array(
         [1 + params.f_error / 100, 1 + params.f_error / 100, 1.0]
     )  # of the columns of K
-    length, T = shown_length(views), views.T_second_first
+    length = shown_length(views)
+    T = views.T_second_first
     if T is not None and np.any(T[:3, 3]):
         T = motion(T[:3, :3], length * T[:3, 3] / np.linalg.norm(T[:3, 3]))
     known: dict[str, Any] = {

@@ -137,7 +137,8 @@ class State:
         """How far points are seen from where they would be infinitely far away: the median, pixels;
         NaN if not known.
         """
-        p, T = self.views.p_first, self.T_true
+        p = self.views.p_first
+        T = self.T_true
         if p is None or T is None:
             return float("nan")
         seen, at_infinity = (

@@ -15,7 +15,9 @@ from workbench.scene import Chart, Color, Field, Label, Points, Primitive, Scene
 T_BESIDE = motion(
     np.eye(3), np.array([1.0, 0.0, 0.0])
 )  # where the source is shown until a motion is found
-MOST_NORMALS, MOST_LINES, NORMAL = 500, 400, 0.05
+MOST_NORMALS = 500
+MOST_LINES = 400
+NORMAL = 0.05
 BARS = Chart("Descriptor of the picked point", "bar: 11 of θ, 11 of α, 11 of φ", "%")
 SHARE, TURN, DISTANCE = (
     Chart("Right matches", unit="%"),

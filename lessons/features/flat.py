@@ -63,7 +63,9 @@ def _marks(sift: Sift, some: slice | np.ndarray) -> np.ndarray:
     """Return circles as wide as some keypoints and lines along their directions, pixels, (k, 2,
     2).
     """
-    uv, angle, radius = sift.uv[some], sift.angle[some], ROUND * sift.sigma[some, None]
+    uv = sift.uv[some]
+    angle = sift.angle[some]
+    radius = ROUND * sift.sigma[some, None]
     rims = uv[:, None] + radius[:, None] * circle(24)
     tips = uv + radius * np.column_stack([np.cos(angle), np.sin(angle)])
     return np.concatenate([*(segments(rim, closed=True) for rim in rims), between(uv, tips)])
@@ -100,7 +102,8 @@ def outlined(state: State, step: Outlined) -> dict[str, Primitive]:
 
 def _bins(state: State, step: Outlined) -> np.ndarray:
     """Return the rings and sectors around the picked point, (k, 2, 3)."""
-    p, n = step.first[step.picked], len(step.first)
+    p = step.first[step.picked]
+    n = len(step.first)
     apart = np.linalg.norm(step.first[:, None] - step.first, axis=2)
     unit = apart.sum() / (n * (n - 1))
     start = (
@@ -137,10 +140,8 @@ def lines_between(
         }
     known = np.ones(len(right), bool) if known is None else known
     width, opacity = (1.0, 0.45) if len(right) > MANY else (2.0, 0.9)
-    thick, agrees = (
-        2.5 if right.sum() <= MANY else 1.5,
-        "right match" if thin == "wrong match" else "agrees",
-    )
+    thick = 2.5 if right.sum() <= MANY else 1.5
+    agrees = "right match" if thin == "wrong match" else "agrees"
     kinds: tuple[tuple[str, np.ndarray, Role, float, float, str], ...] = (
         ("matches/unknown", ~known, "neutral", 1.0, 0.4, "truth not known"),
         ("matches/wrong", known & ~right, "wrong", width, opacity, thin),

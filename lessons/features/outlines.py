@@ -10,7 +10,10 @@ from lessons.features.state import STEPS_ALONG, Outlined, Params
 from workbench.algorithms.transport import best_assignment
 from workbench.geometry.features.shape_context import context_costs, shape_contexts
 
-COUNT, SIZE, LARGER, NOISE = 100, 0.5, 1.2, 0.002
+COUNT = 100
+SIZE = 0.5
+LARGER = 1.2
+NOISE = 0.002
 PICKED = 12
 
 

@@ -28,7 +28,8 @@ Matcher = Callable[[np.ndarray, np.ndarray, float], np.ndarray]
 AXIS = np.array([0.3, 0.5, 0.8]) / np.linalg.norm([0.3, 0.5, 0.8])
 SHIFT = np.array([0.1, -0.05, 0.08])
 WIDTH = 1.2  # of own scans in the picture, metres
-MOST_SAMPLES, CONFIDENCE = 4000, 0.999
+MOST_SAMPLES = 4000
+CONFIDENCE = 0.999
 FEWEST_AGREE = 6  # three matches agree with the motion that was made of them, whatever they are
 MOST_FITS, SHOWN_FITS = 60, 6
 SALIENT = 0.5  # of the radius: the neighbourhood in which a keypoint is salient
@@ -68,7 +69,8 @@ def scan_steps(
     yield step
     yield replace(step, phase="similar")
 
-    asked, offered = matched_points(params, p), matched_points(params, scans.p_target)
+    asked = matched_points(params, p)
+    offered = matched_points(params, scans.p_target)
     a, b = f_source[asked], f_target[offered]
     nearest = nearest_both_ways(a, b)
     step = replace(step, asked=asked)
@@ -83,7 +85,8 @@ def scan_steps(
 
 def _moved(params: Params, step: Scanned) -> Iterator[Scanned]:
     """Yield every best sample of RANSAC and its refits, then fits of ICP."""
-    scans, pairs = step.scans, sure(step.pairs)
+    scans = step.scans
+    pairs = sure(step.pairs)
     if len(pairs) < RIGID.sample_size:
         yield replace(step, phase="end")
         return

@@ -42,7 +42,8 @@ def square(cost: float, scale: float = 1.0) -> str:
 
 def _walked(state: State, walked: Walked) -> Caption:
     descent = walked.now
-    cost, scale = square(descent.cost, state.subject.scale), state.subject.scale
+    cost = square(descent.cost, state.subject.scale)
+    scale = state.subject.scale
     if descent.stop is not None:
         return _stopped(state, descent)
     if descent.phase == "start":
@@ -153,7 +154,8 @@ def _spread(state: State, spread: Spread) -> Caption:
     )
     if len(spread.radii) < 100:
         return Caption(f"{text}.")
-    times, is_possible = spread.wider, spread.predicted[0] >= 0.0
+    times = spread.wider
+    is_possible = spread.predicted[0] >= 0.0
     agrees = 1 / AGREE <= times <= AGREE
     if agrees and is_possible:
         return Caption(f"{text}: about right.", "good")

@@ -25,7 +25,8 @@ def on_contours(p: np.ndarray, walked: Walked) -> dict[str, Primitive]:
     """Return the level lines of the sum of squares over the centre of a circle, and centres kept,
     tried and taken back.
     """
-    descent, kept = walked.now, walked.kept[:, :2]
+    descent = walked.now
+    kept = walked.kept[:, :2]
     scene: dict[str, Primitive] = {
         "valley": _contours(p.tobytes()),
         "way/centres": Points(_near(kept), "source", DOT),

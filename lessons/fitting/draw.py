@@ -87,18 +87,22 @@ def _distances(p: np.ndarray, at: np.ndarray) -> Segments:
 
 
 def _walked(state: State, walked: Walked) -> dict[str, Primitive]:
-    subject, descent, kind = state.subject, walked.now, sure(state.subject.kind)
+    subject = state.subject
+    descent = walked.now
+    kind = sure(state.subject.kind)
     scene = _points(subject) | _estimate(kind, descent.unknown)
     if np.isfinite(descent.unknown).all() and descent.phase != "tried":
         scene["distances"] = _distances(subject.p, feet(kind, descent.unknown, subject.p))
     if descent.phase == "linearised" and subject.p.shape[1] == 2:
         some = every(len(subject.p), 9)
-        n, at = descent.jacobian[some, :2], feet(kind, descent.unknown, subject.p)[some]
+        n = descent.jacobian[some, :2]
+        at = feet(kind, descent.unknown, subject.p)[some]
         along = 0.25 * np.column_stack([-n[:, 1], n[:, 0]])
         ends = _near(between(at_height(at - along, 0.01), at_height(at + along, 0.01)))
         scene["tangents"] = Segments(ends, "highlight", 3.0, name="tangents")
     if descent.trial is not None and descent.phase in ("tried", "rejected"):
-        dashed, tried = outline(kind, descent.trial, REACH)[::2], descent.phase == "tried"
+        dashed = outline(kind, descent.trial, REACH)[::2]
+        tried = descent.phase == "tried"
         scene["trial"] = Segments(
             dashed, "highlight" if tried else "wrong", 3.0, name="trial" if tried else "taken back"
         )
@@ -127,7 +131,8 @@ def _walked_beside(subject: Subject, walked: Walked, descent: Descent) -> dict[s
     if descent.damping:
         scene["damping"] = DAMPING.scalar(descent.damping, "λ", "other", log=True)
     if walked.along is not None:
-        shares, kept = walked.along.shares, np.minimum(walked.along.costs, 4.0 * descent.cost)
+        shares = walked.along.shares
+        kept = np.minimum(walked.along.costs, 4.0 * descent.cost)
         scene["true costs"] = ALONG.curve(shares, kept, "true", marks=(1.0,))
         scene["promised costs"] = ALONG.curve(
             shares, walked.along.promised, "linear problem", "highlight"
@@ -140,12 +145,10 @@ def _estimate(kind: RoundShape, unknown: np.ndarray) -> dict[str, Primitive]:
 
 
 def _spread(state: State, spread: Spread) -> dict[str, Primitive]:
-    subject, kind, unknown, d = (
-        state.subject,
-        sure(state.subject.kind),
-        spread.unknown,
-        state.subject.p.shape[1],
-    )
+    subject = state.subject
+    kind = sure(state.subject.kind)
+    unknown = spread.unknown
+    d = state.subject.p.shape[1]
     scene = _points(subject) | _estimate(kind, unknown)
     axes = np.stack(across(unknown[3:6])) if kind is CYLINDER else np.eye(3)[:2]
     values, vectors = np.linalg.eigh(spread.covariance[:2, :2])
@@ -166,7 +169,9 @@ def _spread(state: State, spread: Spread) -> dict[str, Primitive]:
         scene["radii"] = AGAIN.histogram(
             kept * subject.scale, edges * subject.scale, "repetition", "other"
         )
-        x, width, sd = (edges[1:] + edges[:-1]) / 2, edges[1] - edges[0], spread.radius_deviation
+        x = (edges[1:] + edges[:-1]) / 2
+        width = edges[1] - edges[0]
+        sd = spread.radius_deviation
         expected = (
             len(spread.radii)
             * width
@@ -234,7 +239,8 @@ def _photograph(rim: Rim) -> Picture:
 
 
 def _lines(state: State, fits: Lines) -> dict[str, Primitive]:
-    subject, truth = state.subject, sure(state.subject.truth)
+    subject = state.subject
+    truth = sure(state.subject.truth)
     scene = _points(subject) | {"true line": Segments(_line(truth), "truth", 3.0, name="truth")}
     names = list(fits.lines)
     for name in names:
@@ -260,12 +266,14 @@ def _lines(state: State, fits: Lines) -> dict[str, Primitive]:
 
 
 def _line(line: np.ndarray, half: float = 1.6) -> np.ndarray:
-    middle, way = -line[2] * line[:2], half * np.array([-line[1], line[0]])
+    middle = -line[2] * line[:2]
+    way = half * np.array([-line[1], line[0]])
     return at_height(np.stack([middle - way, middle + way]))[None]
 
 
 def _trusted(state: State, trusted: Trusted) -> dict[str, Primitive]:
-    subject, scale = state.subject, 1e3 * state.subject.scale
+    subject = state.subject
+    scale = 1e3 * state.subject.scale
     low = np.minimum(subject.p.min(axis=0), -1.0) - 0.01
     high = np.maximum(subject.p.max(axis=0), 1.0) + 0.01
     trust = Field(trusted.now.weights, 0.0, 1.0, "weight")
@@ -280,7 +288,8 @@ def _trusted(state: State, trusted: Trusted) -> dict[str, Primitive]:
             scene[f"{name}/surface"] = Mesh(
                 corners, fan(len(corners)), color, opacity=0.25, flat=True
             )
-    weights, off = LOSSES[trusted.loss.name].weights, trusted.now.distances
+    weights = LOSSES[trusted.loss.name].weights
+    off = trusted.now.distances
     x = np.linspace(-1.0, 1.0, 161) * float(np.clip(np.abs(off).max(), 3e-3, 1.0))
     scene["pull"] = PULL.curve(scale * x, scale * x * weights(x, trusted.corner), trusted.loss.name)
     scene["pulls"] = PULL.dots(

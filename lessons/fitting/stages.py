@@ -37,7 +37,8 @@ REPEATS = (30, 300)
 LARGEST = 50.0  # metres of radius up to which a covariance says anything
 GRID, WALL = 21, 4.0  # starts to a side, metres
 SHOWN_ITERATIONS = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
-ARCS, MOST_DRAWS = (360.0, 270.0, 180.0, 120.0, 90.0, 60.0, 45.0, 30.0, 20.0), 2000
+ARCS = (360.0, 270.0, 180.0, 120.0, 90.0, 60.0, 45.0, 30.0, 20.0)
+MOST_DRAWS = 2000
 FEWER_DRAWS = 1200  # where there are several arcs
 ROUNDS, CALM = (
     100,
@@ -72,7 +73,9 @@ def walk(
     """Yield the moments of a descent, and what its end is worth: made points get other errors, own
     points are drawn anew.
     """
-    kind, p, last = sure(subject.kind), subject.p, None
+    kind = sure(subject.kind)
+    p = subject.p
+    last = None
     moments = descend(
         lambda unknown: linearise(unknown, p),
         kind.retract,
@@ -148,10 +151,8 @@ def trust(params: Params, subject: Subject, huber_weights: Weights) -> Iterator[
     corners = [sigma * min(loss.efficient_corner, 6.0) for loss in losses]
     if params.corner:
         corners[0] = sigma * params.corner
-    model, by = (
-        replace(PLANE, distances=hyperplane_distances),
-        list(zip(losses, corners, strict=True)),
-    )
+    model = replace(PLANE, distances=hyperplane_distances)
+    by = list(zip(losses, corners, strict=True))
     try:
         for trusted in cascade(subject.p, model, by, max_iterations=ROUNDS, tolerance=CALM):
             k = trusted.now.iteration

@@ -74,8 +74,10 @@ def _grown(state: State, grown: Grown) -> str:
 
 
 def _matrix(state: State, matrix: Matrix) -> str:
-    L, v = matrix.laplacian.matrix, state.vertex
-    called, d = state.subject.called(v), brief(float(L[[v], [v]].sum()))
+    L = matrix.laplacian.matrix
+    v = state.vertex
+    called = state.subject.called(v)
+    d = brief(float(L[[v], [v]].sum()))
     entries = counted(len(edges_of(state.adjacency)), "edge")
     if matrix.part == "adjacency":
         filled = state.adjacency.nnz / state.adjacency.shape[0] ** 2
@@ -124,7 +126,8 @@ def _mode(state: State, mode: Mode) -> str:
             f" Drawn: eigenvector {mode.index + 1} of the two taken as one graph, λ ="
             f" {brief(mode.values[mode.index])}."
         )
-    value, number = float(mode.values[mode.index]), mode.index + 1
+    value = float(mode.values[mode.index])
+    number = mode.index + 1
     text = f"Eigenvector {number}: λ = {brief(value)}"
     true = state.subject.eigenvalues
     if (
@@ -229,7 +232,8 @@ def _by_sign(state: State, cut: Cut) -> str:
 
 
 def _sides(state: State) -> str:
-    correct, n = right(state), len(state.subject.p)
+    correct = right(state)
+    n = len(state.subject.p)
     if correct is None:
         return ""
     wrong = np.flatnonzero(predicted(state) != state.subject.classes)
@@ -248,7 +252,8 @@ def _heat(state: State, heat: Heat) -> str:
             f"All heat is at node {state.subject.called(state.vertex)}. A step is u ← u − dt L u"
             f" with dt = {dt}."
         )
-    hottest, touched = float(np.abs(heat.u).max()), int(np.count_nonzero(heat.u))
+    hottest = float(np.abs(heat.u).max())
+    touched = int(np.count_nonzero(heat.u))
     if hottest > 1.0 + 1e-9:
         return (
             f"Step {heat.step}: the largest heat is {_size(hottest)}, where 1 was put in. dt is"
@@ -275,7 +280,8 @@ def _size(value: float) -> str:
 
 
 def _smoothed(state: State, smoothed: Smoothed) -> str:
-    share, off = volume_share(state), from_clean(state, smoothed.p)
+    share = volume_share(state)
+    off = from_clean(state, smoothed.p)
     volume = f", {percent(share, 0)} of the volume" if np.isfinite(share) else ""
     if smoothed.step == 0:
         return (
@@ -296,7 +302,8 @@ def _smoothed(state: State, smoothed: Smoothed) -> str:
 
 
 def _layer(state: State, layer: Layer) -> str:
-    n, v = len(state.subject.p), state.vertex
+    n = len(state.subject.p)
+    v = state.vertex
     called = state.subject.called(v)
     if layer.features.shape[1] != 2:
         return _readout(state, layer)
@@ -323,7 +330,8 @@ def _layer(state: State, layer: Layer) -> str:
             f"Gathered: node {called} has ({features}). W is the identity here and nothing is"
             " negative, so ReLU leaves it."
         )
-    heard, correct = int(np.count_nonzero(reached(state))), right(state)
+    heard = int(np.count_nonzero(reached(state)))
+    correct = right(state)
     text = (
         f"Layer {layer.layer}: the labels have reached {'all' if heard == n else f'{heard:,} of'}"
         f" {n:,} nodes"
@@ -335,7 +343,8 @@ def _layer(state: State, layer: Layer) -> str:
 def _readout(state: State, layer: Layer) -> str:
     classes = state.subject.classes
     sums = [layer.features[classes == which].sum(axis=0) for which in (0, 1)]
-    gap, size = float(np.abs(sums[0] - sums[1]).max()), float(np.abs(sums).max())
+    gap = float(np.abs(sums[0] - sums[1]).max())
+    size = float(np.abs(sums).max())
     if layer.layer == 0:
         return (
             "Two graphs, and every node begins with the same four features, all 1. Does any layer"
@@ -361,7 +370,8 @@ def _part(layer: Layer) -> str:
 
 
 def _trained(state: State, trained: Trained) -> str:
-    correct, n = right(state), len(state.subject.p)
+    correct = right(state)
+    n = len(state.subject.p)
     layers = counted(max(state.params.layers, 1), "layer")
     text = (
         f"Iteration {trained.iteration} of a network of {layers}: loss"

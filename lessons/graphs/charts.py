@@ -22,9 +22,11 @@ HEAT, LOSS, COMPONENTS, CONDUCTANCE = (
     Chart("Components"),
     Chart("Conductance"),
 )
-DEGREES, ONE_WAY = Chart("Degrees", "neighbours", "nodes"), Chart("One-way", unit="%")
+DEGREES = Chart("Degrees", "neighbours", "nodes")
+ONE_WAY = Chart("One-way", unit="%")
 OF_A, OF_L = Chart("Eigenvalues of A", "number"), Chart("Eigenvalues of L", "number")
-EIGENVALUES, ERROR = Chart("Eigenvalues", "number", "λ"), Chart("Error to the truth", unit="%")
+EIGENVALUES = Chart("Eigenvalues", "number", "λ")
+ERROR = Chart("Error to the truth", unit="%")
 SORTED = Chart("Fiedler vector, sorted", "node in its order")
 CUTS = Chart("Conductance of the cuts", "nodes on the near side")
 RIGHT, SMOOTHED = Chart("Right", unit="%"), Chart("Over-smoothing", unit="%")
@@ -89,7 +91,8 @@ def _picture(matrix: Matrix) -> Picture:
 
 
 def _blocks(matrix: Sparse) -> np.ndarray:
-    n, entries = matrix.shape[0], matrix.tocoo()
+    n = matrix.shape[0]
+    entries = matrix.tocoo()
     size = -(-n // LARGEST)
     side = -(-n // size)
     values = np.zeros(side * side)
@@ -102,7 +105,8 @@ def _blocks(matrix: Sparse) -> np.ndarray:
 
 def _node_table(state: State, matrix: Matrix) -> Table:
     """Return the row of L of the node that is looked at, applied to the places along x."""
-    node, x = state.vertex, state.subject.p[:, 0]
+    node = state.vertex
+    x = state.subject.p[:, 0]
     row = matrix.laplacian.matrix[[node]].tocoo()
     others = [
         (int(j), -float(w)) for j, w in zip(row.col, row.data, strict=True) if j != node and w != 0
@@ -139,8 +143,10 @@ def _spectrum(state: State, mode: Mode) -> dict[str, Primitive]:
                 name = f"{'left' if which == 0 else 'right'} graph"
                 scene[f"{chart.title} {name}"] = chart.dots(x, values, name, role)
         return scene
-    number, count = np.arange(len(mode.values)) + 1.0, len(mode.values)
-    values, mark = np.round(mode.values, 9) + 0.0, mode.index + 1.0
+    number = np.arange(len(mode.values)) + 1.0
+    count = len(mode.values)
+    values = np.round(mode.values, 9) + 0.0
+    mark = mode.index + 1.0
     scene["eigenvalues"] = EIGENVALUES.dots(number, values, "of the graph", marks=(mark,))
     true = state.subject.eigenvalues[:count]
     if len(true) == count and state.params.laplacian in (
@@ -188,7 +194,8 @@ def _right(state: State) -> dict[str, Primitive]:
 
 
 def _smoothed(state: State, smoothed: Smoothed) -> dict[str, Primitive]:
-    off, share = from_clean(state, smoothed.p), volume_share(state)
+    off = from_clean(state, smoothed.p)
+    share = volume_share(state)
     scene: dict[str, Primitive] = {
         "error": OFF.scalar(off, "RMS distance to the clean places", "truth")
     }
@@ -221,7 +228,8 @@ def _layer(state: State, layer: Layer) -> dict[str, Primitive]:
 
 def _sum_table(state: State, layer: Layer) -> Table:
     """Return what a node gathers in the first layer, or what it has after a later one."""
-    node, row = state.vertex, layer.matrix[state.vertex]
+    node = state.vertex
+    row = layer.matrix[state.vertex]
     near = np.flatnonzero(row)
     header = ("from", "weight", "feature 1", "feature 2")
     if layer.layer <= 1 and layer.part != "layer":

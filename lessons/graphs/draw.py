@@ -95,7 +95,8 @@ def _matrix_color(state: State, matrix: Matrix) -> Color:
 
 def _edges(state: State, p: np.ndarray) -> dict[str, Primitive]:
     """Draw the edges: one-way ones of a growing graph apart, and those that a cut goes through."""
-    result, edges = state.now, edges_of(state.adjacency)
+    result = state.now
+    edges = edges_of(state.adjacency)
     p = p + below(state)
     if len(edges) > MOST_EDGES or (
         len(state.subject.faces) and not isinstance(result, Cut | Grown)
@@ -123,7 +124,9 @@ def _marks(state: State, p: np.ndarray) -> dict[str, Primitive]:
     """Draw rims: of the node that is looked at, of labelled nodes, and of nodes that are told
     wrongly.
     """
-    result, subject, scene = state.now, state.subject, dict[str, Primitive]()
+    result = state.now
+    subject = state.subject
+    scene = dict[str, Primitive]()
     under = below(state)
     if isinstance(result, Matrix | Heat | Layer):
         node = state.vertex
@@ -138,7 +141,8 @@ def _marks(state: State, p: np.ndarray) -> dict[str, Primitive]:
             scene["its edges"] = Segments(
                 between(p[node], p[near]) + 2 * under, "highlight", 3.0, name="its edges"
             )
-    told, classes = predicted(state), subject.classes
+    told = predicted(state)
+    classes = subject.classes
     if len(told) and len(classes) and not isinstance(result, Cut):
         misses = (told != classes) & (told >= 0) & reached(state)
         if misses.any():

@@ -55,7 +55,8 @@ def right(state: State) -> int | None:
     """Return how many nodes a step puts where they truly belong; None where nobody knows or nothing
     was said.
     """
-    told, classes = predicted(state), state.subject.classes
+    told = predicted(state)
+    classes = state.subject.classes
     return int(np.count_nonzero(told == classes)) if len(told) and len(classes) else None
 
 
@@ -107,9 +108,11 @@ def tone(state: State) -> Tone:
         if not state.last:
             return "info"
         assert isinstance(state.first, Smoothed)
-        start, end = from_clean(state, state.first.p), from_clean(state, result.p)
+        start = from_clean(state, state.first.p)
+        end = from_clean(state, result.p)
         return "wrong" if end > start else "good" if end < 0.9 * start else "info"
-    correct, n = right(state), len(state.subject.p)
+    correct = right(state)
+    n = len(state.subject.p)
     if correct is None or not (state.last or (isinstance(result, Cut) and result.phase == "sign")):
         return "info"
     return "good" if correct >= WELL * n else "wrong" if correct < BADLY * n else "info"

@@ -132,7 +132,8 @@ def matrix_steps(
 @traced
 def matrices(laplacian: Laplacian, count: int) -> Iterator[Matrix]:
     """Yield the parts of a Laplacian as matrices."""
-    as_numbered, L = np.arange(count), laplacian.matrix
+    as_numbered = np.arange(count)
+    L = laplacian.matrix
     degrees = scipy.sparse.diags_array(L.diagonal()).tocsr()
     weights = (degrees - L).tocsr()  # A; of a mesh the cotangent weights
     yield Matrix(part="adjacency", laplacian=laplacian, shown=weights, order=as_numbered)
@@ -238,10 +239,12 @@ def network_steps(
     """
     dense = _dense(adjacency)
     if params.graph in PAIRS and len(subject.classes):
-        features, rng = np.ones((len(dense), 4)), np.random.default_rng(params.seed)
+        features = np.ones((len(dense), 4))
+        rng = np.random.default_rng(params.seed)
         weights = [rng.normal(size=(4, 4)) for _ in range(params.layers)]
     else:
-        features, weights = _labels(subject), [np.eye(2)] * params.layers
+        features = _labels(subject)
+        weights = [np.eye(2)] * params.layers
     return spread(dense, features, weights, gcn_layer=functions.gcn_layer)
 
 
@@ -249,7 +252,9 @@ def training_steps(
     params: Params, subject: Subject, adjacency: Sparse, functions: Functions
 ) -> Iterator[Now]:
     """Yield a network of one layer or more while it learns two labels, every tenth iteration."""
-    dense, rng, n = _dense(adjacency), np.random.default_rng(params.seed), len(subject.p)
+    dense = _dense(adjacency)
+    rng = np.random.default_rng(params.seed)
+    n = len(subject.p)
     sizes = [n, *[HIDDEN] * (max(params.layers, 1) - 1), 2]
     weights = [rng.normal(size=(a, b)) * np.sqrt(2 / (a + b)) for a, b in pairwise(sizes)]
     steps = train(

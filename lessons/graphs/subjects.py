@@ -56,7 +56,8 @@ def _what_counts(params: Params) -> Params:
 
 @functools.lru_cache(maxsize=16)
 def _built_in(params: Params) -> Subject:
-    rng, name = np.random.default_rng(params.seed), params.graph
+    rng = np.random.default_rng(params.seed)
+    name = params.graph
     if name == "dumbbell":
         p, classes = networks.dumbbell(params.points, params.share, params.bridge, rng=rng)
         ends = _nearest(p, np.array([-1.0, 0, 0])), _nearest(p, np.array([1.0, 0, 0]))

@@ -38,7 +38,8 @@ def tries_of(look: SpaceLook) -> tuple[Try, ...]:
 
 
 def _of_match(look: SpaceLook, state: icp.State) -> Caption:
-    kept, n = int(np.count_nonzero(state.kept)), len(state.kept)
+    kept = int(np.count_nonzero(state.kept))
+    n = len(state.kept)
     words = "Match {n}: every orange point takes the nearest blue one."
     values = {}
     if kept < n:
@@ -51,7 +52,8 @@ def _of_match(look: SpaceLook, state: icp.State) -> Caption:
 
 
 def _of_fit(look: SpaceLook, state: icp.State) -> Caption:
-    scans, by = look.subject, degrees(turned(look, state))
+    scans = look.subject
+    by = degrees(turned(look, state))
     if state.stop is not None:
         return _stopped(look, state, "", {})
     if not scans.known:
@@ -87,7 +89,8 @@ def _stopped(look: SpaceLook, state: icp.State, words: str, values: dict) -> Cap
 
 
 def _of_try(look: SpaceLook, attempt: Try) -> Caption:
-    scans, home = look.subject, look.subject.at_home(attempt.error)
+    scans = look.subject
+    home = look.subject.at_home(attempt.error)
     n = len(scans.p_source)
     few = len(range(n)[every(n, TRIED)])
     fewer = f" (with {few:,} of its points)" if few < n else ""
@@ -113,11 +116,13 @@ def _of_try(look: SpaceLook, attempt: Try) -> Caption:
 
 def _at_start(look: SpaceLook, state: icp.State) -> str:
     """Say what has no effect on own scans, and where scans that start far apart need a guess."""
-    text, idle = "", [name.replace("_", " ") for name in look.params.changed]
+    text = ""
+    idle = [name.replace("_", " ") for name in look.params.changed]
     if idle:
         has = "has" if len(idle) == 1 else "have"
         text += f" Your own scans are open: {', '.join(idle)} {has} no effect on them."
-    gap, width = float(state.distances.min()), WIDTH / look.subject.frame.scale
+    gap = float(state.distances.min())
+    width = WIDTH / look.subject.frame.scale
     if gap > width:
         text += (
             f" The scans start {length(gap)} apart, and the target is {length(width)} wide: bring"

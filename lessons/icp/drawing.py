@@ -77,7 +77,8 @@ def draw(look: SpaceLook) -> Scene:
 def _of_the_run(params: Input, scans: Scans, state: icp.State) -> dict[str, Primitive]:
     T_target_source = state.T_target_source
     T_world_source = scans.frame.shown_motion(T_target_source)
-    p, radius = scans.p_source_shown, _radius(len(scans.p_source))
+    p = scans.p_source_shown
+    radius = _radius(len(scans.p_source))
     error = scans.error(T_target_source) if scans.known else None
     return {
         "source": Points(p, _source_color(scans), radius, T_world_source, name="source"),
@@ -93,7 +94,8 @@ def _from_another_start(look: SpaceLook, attempt: Try) -> dict[str, Primitive]:
     assert scans.T_truth is not None
     T_target_source = attempt.T_target_truth @ scans.T_truth
     T_world_try = scans.frame.shown_motion(T_target_source)
-    p, radius = scans.p_source_shown, _radius(len(scans.p_source))
+    p = scans.p_source_shown
+    radius = _radius(len(scans.p_source))
     color = _source_color(scans)
     name = f"end from {attempt.start_angle:.0f}° away"
     return {
@@ -169,7 +171,8 @@ def _landscape(params: Input, scans: Scans, state: icp.State) -> dict[str, Primi
     if params.target is not None:
         return {}
     if params.shape == "vase":
-        curves, x = landscapes(params), _about_vertical(scans, state.T_target_source)
+        curves = landscapes(params)
+        x = _about_vertical(scans, state.T_target_source)
         y = float(np.interp(x, TURNS, MM * curves["vase"]))
         return {
             "turning/vase": TURNS_COST.whole(TURNS, MM * curves["vase"], "vase"),
@@ -221,10 +224,8 @@ def _basin(look: SpaceLook) -> dict[str, Primitive]:
 def _matches(scans: Scans, state: icp.State, T_world_source: np.ndarray) -> dict[str, Primitive]:
     """Return some of the matches, those of outliers and those that are refused (as stubs) apart."""
     rows = every(len(state.indices), MOST_LINES)
-    p, q = (
-        apply(T_world_source, scans.p_source_shown[rows]),
-        scans.p_target_shown[state.indices[rows]],
-    )
+    p = apply(T_world_source, scans.p_source_shown[rows])
+    q = scans.p_target_shown[state.indices[rows]]
     kept, out = state.kept[rows], scans.is_outlier[rows]
     reach = np.where(kept, 1.0, STUB)[:, None]
     color: Color = Classes(

@@ -47,7 +47,8 @@ COST = Chart(
     y_range=(0.0, 150.0),
 )
 ANGLE, RMSE = Chart("Angle", unit="deg"), Chart("RMSE", unit="m")
-SWING, ROUND = Chart("Swing of each fit", unit="deg"), Chart("Round")
+SWING = Chart("Swing of each fit", unit="deg")
+ROUND = Chart("Round")
 BASIN = Chart("Basin", unit="deg")
 
 
@@ -84,7 +85,8 @@ class Outlines:
 def outlines(params: Input) -> Outlines:
     """Return the outlines, their cost at every angle, and the basin of ICP with the params' fit."""
     line = rabbit_outline()
-    p_target, p_source = along(line, BLUE), along(line, ORANGE, OFFSET)
+    p_target = along(line, BLUE)
+    p_source = along(line, ORANGE, OFFSET)
     n_target = normals_along(p_target)
     m_target, m_source = p_target.mean(axis=0), p_source.mean(axis=0)
     p_target, p_source = p_target - m_target, p_source - m_source
@@ -125,7 +127,8 @@ def draw(look: Look[Input, Outlines, State]) -> Scene:
     lines, state = look.subject, look.now
     T_turn = upright_turn(state.angle)
     shown = within_half(state.angle)
-    p_moved, q = turned(lines.p_source, state.angle), lines.p_target[state.partners]
+    p_moved = turned(lines.p_source, state.angle)
+    q = lines.p_target[state.partners]
     tick = np.array([[0.0, DIAL - MARK], [0.0, DIAL + MARK]])
     asked = state.iteration == 1 and state.phase == "match"  # a question asks how many are right
     good = lines.right(state.partners) & (not asked)
@@ -188,7 +191,8 @@ def _ring(p_moved: np.ndarray, q: np.ndarray) -> dict[str, Primitive]:
     """Return a circle around the point whose partner is farthest: nothing blue lies inside it."""
     gaps = np.linalg.norm(p_moved - q, axis=1)
     farthest = int(gaps.argmax())
-    p_one, radius = p_moved[farthest], float(gaps[farthest])
+    p_one = p_moved[farthest]
+    radius = float(gaps[farthest])
     circle = p_one + on_dial(np.linspace(0.0, 360.0, 73), radius)
     name = on_dial(np.array([180.0]), 0.86 * DIAL)  # below both outlines
     return {

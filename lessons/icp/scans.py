@@ -219,7 +219,8 @@ def _framed(p_target: np.ndarray, p_source: np.ndarray, how: Frame, spread: bool
     """Bring scans of any size and place into the picture, WIDTH wide and upright about the
     middle.
     """
-    target_shown, cell = how.shown(p_target), round_below(0.5 / how.scale)
+    target_shown = how.shown(p_target)
+    cell = round_below(0.5 / how.scale)
     tree = _tree_when_asked(p_target)
     return Scans(
         p_target=p_target,

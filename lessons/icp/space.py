@@ -21,7 +21,8 @@ from workbench.geometry.motions.alignment import (
 from workbench.lesson import Slot, cached
 from workbench.tracing import untraced
 
-MAX_ITERATIONS, TOLERANCE = 150, 1e-5
+MAX_ITERATIONS = 150
+TOLERANCE = 1e-5
 ANGLES = tuple(range(0, 181, 15))  # degrees: how far away the tries start
 SLIDING = ("corner", "vase")  # moved onto themselves they look the same: no start leads home
 SHARES = (0.3, 0.4, 0.5, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0)  # of the matches, that the chart tries

@@ -93,7 +93,8 @@ def _told(state: State) -> tuple[str, float, float, float]:
 
 
 def _of_turns(params: Params, about: Turns, fit: Regressed) -> str:
-    k, worst = params.picked % len(fit.errors), int(fit.errors.argmax())
+    k = params.picked % len(fit.errors)
+    worst = int(fit.errors.argmax())
     mean = f"loss {brief(fit.loss, 2)}; wrong by {angle(float(fit.errors.mean()))} on average"
     if fit.updates == 0:
         return f"{mean}."

@@ -31,18 +31,17 @@ from workbench.scene import (
     Table,
 )
 
-LOSS, ERROR, SPREAD = (
-    Chart("Loss"),
-    Chart("Error", unit="°"),
-    Chart("Spread of the radii", unit="m"),
-)
+LOSS = Chart("Loss")
+ERROR = Chart("Error", unit="°")
+SPREAD = Chart("Spread of the radii", unit="m")
 OVER_TURN = Chart("Output over turn", "turn (°)", "output (°)")
 BY_TURN = Chart("Error by turn", "turn (°)", "error (°)")
 DISTANCE, FOLDS = Chart("Root of Chamfer", unit="m"), Chart("Folded edges", unit="%")
 RIGHT, MATCH = Chart("Named rightly", unit="%"), Chart("Match of photographs", unit="dB")
 ALONG = Chart("Weights along the ray", "distance from the camera (m)", "weight")
 T_WORLD_FIELD = np.diag([1.0, -1.0, -1.0, 1.0])  # rows of the picture run along -y
-GAP, STRIP = 2.3, 6
+GAP = 2.3
+STRIP = 6
 LIFT = np.array([0.0, 0.0, 0.02])
 BESIDE = np.eye(4)
 BESIDE[:3, 3] = (
@@ -193,7 +192,8 @@ def _clouds(params: Params, classified: Classified, about: Clouds) -> dict[str, 
         else [np.empty(0, int)] * count
     )
     for k, name in enumerate(NAMES):
-        p, x = about.changed[k], GAP * (k - (count - 1) / 2)
+        p = about.changed[k]
+        x = GAP * (k - (count - 1) / 2)
         decides = np.isin(np.arange(len(p)), critical[k])
         color = Classes.marking(decides, "highlight", "critical", others=("target", "points"))
         right = said(classified, k) == name

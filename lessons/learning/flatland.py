@@ -25,7 +25,8 @@ def medium(
     """Return density (1/m) and colour at points of the plane: every disc has darker and lighter
     slices.
     """
-    density, color = np.zeros(p.shape[:-1]), np.zeros((*p.shape[:-1], 3))
+    density = np.zeros(p.shape[:-1])
+    color = np.zeros((*p.shape[:-1], 3))
     for (x, y, radius), own in zip(DISCS, COLORS, strict=True):
         right, up = p[..., 0] - x, p[..., 1] - y
         inside = right**2 + up**2 < radius**2
@@ -44,7 +45,8 @@ def rays_of(angle: float, pixels: int) -> tuple[Float[np.ndarray, "w 2"], Float[
         pixels: How many rays.
     """
     p = DISTANCE * np.array([np.cos(angle), np.sin(angle)])
-    ahead, right = -p / DISTANCE, np.array([-p[1], p[0]]) / DISTANCE
+    ahead = -p / DISTANCE
+    right = np.array([-p[1], p[0]]) / DISTANCE
     d = ahead + np.tan(np.radians(HALF_VIEW)) * np.linspace(-1, 1, pixels)[:, None] * right
     return np.tile(p, (pixels, 1)), d / np.linalg.norm(d, axis=1, keepdims=True)
 

@@ -13,7 +13,8 @@ from workbench.geometry.motions.rotation_outputs import random_rotations
 NAMES = ("sphere", "box", "cylinder", "cone", "torus")
 Turned = Literal["about z", "freely"]
 
-NOISE, STRETCH = 0.02, (0.8, 1.2)
+NOISE = 0.02
+STRETCH = (0.8, 1.2)
 
 
 def labelled_clouds(
@@ -45,8 +46,10 @@ def _points(of: np.ndarray, count: int, rng: np.random.Generator) -> np.ndarray:
     """
     of, shape = np.repeat(of, count), (len(of), count, 3)
     u, v, w = rng.random((3, len(of)))
-    a, end = 2 * np.pi * u, rng.random(len(of)) < 0.3
-    round_, sign = np.stack([np.cos(a), np.sin(a)], axis=1), np.sign(w - 0.5)
+    a = 2 * np.pi * u
+    end = rng.random(len(of)) < 0.3
+    round_ = np.stack([np.cos(a), np.sin(a)], axis=1)
+    sign = np.sign(w - 0.5)
     root = np.sqrt(v)
     z = 2 * v - 1
     p = np.column_stack([round_ * np.sqrt(1 - z * z)[:, None], z])

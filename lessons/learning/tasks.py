@@ -45,7 +45,8 @@ VERTICES, GIVEN, TRUE, START = (
     3000,
     0.6,
 )  # of meshes: vertices, points given and of the truth, radius (m)
-MOST_OWN, OWN_SIZE = 200_000, 1.2
+MOST_OWN = 200_000
+OWN_SIZE = 1.2
 NEW_VIEW, NEW_VIEWS, DENSE = (
     0.13,
     12,

@@ -143,7 +143,8 @@ def _origin(subject: Subject) -> str:
 
 
 def _cells(state: State, cells: Cells) -> Caption:
-    subject, n = state.subject, cells.across[-1]
+    subject = state.subject
+    n = cells.across[-1]
     full = int(np.count_nonzero(cells.bits))
     whole = (
         "the true area"
@@ -162,7 +163,8 @@ def _cells(state: State, cells: Cells) -> Caption:
 
 
 def _throws(state: State, throws: Throws) -> Caption:
-    subject, n = state.subject, throws.estimates.counts[-1]
+    subject = state.subject
+    n = throws.estimates.counts[-1]
     value, error = throws.estimates.values[-1], throws.estimates.errors[-1]
     text = f"{n:,} throws, {throws.hits:,} hits: {_interval(value, error)} {subject.unit}³"
     text += f"; truth {volume(subject, subject.volume)}, {off(state.volume_error)}."
@@ -195,7 +197,8 @@ def _peeked(state: State, looks: int) -> str:
 
 
 def _lines(state: State, lines: Lines) -> Caption:
-    subject, n = state.subject, lines.estimates.counts[-1]
+    subject = state.subject
+    n = lines.estimates.counts[-1]
     value, error = lines.estimates.values[-1], lines.estimates.errors[-1]
     return Caption(
         f"{n:,} lines through the ball around it cross the surface {lines.total:,} times,"

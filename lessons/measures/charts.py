@@ -37,7 +37,8 @@ def beside(state: State) -> dict[str, Primitive]:
 
 
 def _running(state: State, volume: float, area: float) -> dict[str, Primitive]:
-    subject, scene = state.subject, dict[str, Primitive]()
+    subject = state.subject
+    scene = dict[str, Primitive]()
     volumes, areas = (
         Chart("Volume", unit=f"{subject.unit}³"),
         Chart("Area", unit=f"{subject.unit}²"),
@@ -68,7 +69,8 @@ def _sums(state: State) -> dict[str, Primitive]:
 
 def _finer(study: Study, lantern: bool) -> dict[str, Primitive]:
     roles: tuple[Role, ...] = ("source", "other", "wrong")
-    x, chart = np.log10(study.faces), LANTERN if lantern else FINER
+    x = np.log10(study.faces)
+    chart = LANTERN if lantern else FINER
     scene: dict[str, Primitive] = {}
     for (name, values), role in zip(study.errors.items(), roles, strict=False):
         y = np.log10(values) if lantern else _log(values)
@@ -79,7 +81,8 @@ def _finer(study: Study, lantern: bool) -> dict[str, Primitive]:
 
 
 def _cells(state: State, cells: Cells) -> dict[str, Primitive]:
-    subject, x = state.subject, np.log2(cells.across)
+    subject = state.subject
+    x = np.log2(cells.across)
     return {
         "volume errors": CELLS.dots(
             x, _log(np.abs(np.array(cells.volumes) / subject.volume - 1)), "volume"

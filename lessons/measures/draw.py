@@ -59,7 +59,8 @@ def _faint(subject: Subject, opacity: float = 0.25) -> Mesh:
 
 
 def _faces(state: State, sums: Sums) -> dict[str, Primitive]:
-    subject, origin = state.subject, np.array(state.params.origin)
+    subject = state.subject
+    origin = np.array(state.params.origin)
     p, faces = _apart(subject)
     added = np.zeros(len(faces), dtype=np.uint8)
     done = sums.order[: sums.count]
@@ -150,14 +151,16 @@ def _lines(state: State, lines: Lines) -> dict[str, Primitive]:
 
 def _triangle(sampled: Sampled) -> dict[str, Primitive]:
     a, b, c = TRIANGLE
-    inner, corner = np.array([a + b, b + c, c + a]) / 2, at_corners(sampled.q)
+    inner = np.array([a + b, b + c, c + a]) / 2
+    corner = at_corners(sampled.q)
     which = np.where(corner.any(axis=1), corner.argmax(axis=1), 3).astype(np.uint8)
     color = Classes(
         which,
         ("source", "other", "highlight", "neutral"),
         ("at a", "at b", "at c", "in the middle"),
     )
-    back, middle = np.array([0.0, 0.01, 0.0]), TRIANGLE.mean(axis=0)
+    back = np.array([0.0, 0.01, 0.0])
+    middle = TRIANGLE.mean(axis=0)
     names = {
         f"corner {name}": Label(name, middle + 1.1 * (p - middle))
         for name, p in zip("abc", TRIANGLE, strict=True)

@@ -45,7 +45,8 @@ def run(
     volume_by_chance: ByChance = volume_by_chance,
 ) -> Iterator[State]:
     """Yield the steps of measuring one shape in one way."""
-    subject, rng = subject_of(params), np.random.default_rng(params.seed)
+    subject = subject_of(params)
+    rng = np.random.default_rng(params.seed)
     counts = counts_to(params.throws, params.draw)
     if params.method == "samples":
         yield from samples(params, subject, rng, points_on_faces)

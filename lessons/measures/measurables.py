@@ -40,7 +40,8 @@ class Measurable:
 @functools.lru_cache(maxsize=16)
 def sphere(subdivisions: int) -> Measurable:
     """Return a ball of radius 1 in an icosahedron whose edges were halved so many times."""
-    made, corner = surfaces.sphere(10 * 4**subdivisions + 2, RADIUS), np.full(3, RADIUS)
+    made = surfaces.sphere(10 * 4**subdivisions + 2, RADIUS)
+    corner = np.full(3, RADIUS)
     return Measurable(
         p=made.p,
         faces=made.faces,
@@ -55,10 +56,8 @@ def sphere(subdivisions: int) -> Measurable:
 @functools.lru_cache(maxsize=16)
 def torus(subdivisions: int) -> Measurable:
     """Return a torus around z, its grid halved so many times."""
-    made, corner = (
-        surfaces.torus(16 * 4**subdivisions, RING, TUBE),
-        np.array([RING + TUBE, RING + TUBE, TUBE]),
-    )
+    made = surfaces.torus(16 * 4**subdivisions, RING, TUBE)
+    corner = np.array([RING + TUBE, RING + TUBE, TUBE])
     return Measurable(
         p=made.p,
         faces=made.faces,
@@ -73,7 +72,8 @@ def torus(subdivisions: int) -> Measurable:
 @functools.cache
 def box() -> Measurable:
     """Return a box with edges along the axes."""
-    made, half = solids.box(BOX), np.array(BOX) / 2
+    made = solids.box(BOX)
+    half = np.array(BOX) / 2
     a, b, c = BOX
     return Measurable(
         p=made.p - [0, 0, half[2]],
@@ -91,7 +91,8 @@ def two_spheres(subdivisions: int) -> Measurable:
     """Return two meshes of balls of radius 1 that overlap, their middles 1 m apart; area and volume
     are of the union.
     """
-    ball, shift = sphere(subdivisions), np.array([APART / 2, 0.0, 0.0])
+    ball = sphere(subdivisions)
+    shift = np.array([APART / 2, 0.0, 0.0])
     cap = RADIUS - APART / 2
     lens = np.pi * (4 * RADIUS + APART) * (2 * RADIUS - APART) ** 2 / 12
     within = ball.inside
@@ -127,8 +128,11 @@ def lantern(sectors: int, rings: int) -> Measurable:
         -1, 3
     )
     k, j = (index[:rings].ravel() for index in (k, j))
-    odd, row, above = k % 2, k * sectors, (k + 1) * sectors
-    after, slip = (j + 1) % sectors, (j + k % 2) % sectors
+    odd = k % 2
+    row = k * sectors
+    above = (k + 1) * sectors
+    after = (j + 1) % sectors
+    slip = (j + k % 2) % sectors
     up = np.stack([row + j, row + after, above + slip], axis=1)
     down = np.stack([row + np.where(odd, j, after), above + after, above + j], axis=1)
     corner = np.array([RADIUS, RADIUS, 0.5])

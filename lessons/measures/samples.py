@@ -34,8 +34,10 @@ def samples(
             quarters=quarters(sampled.q),
         )
     p, faces = with_small_half(subject.p, subject.faces)
-    areas, small = face_areas(p, faces), p[faces].mean(axis=1)[:, 0] > 0
-    numbers, middle = numbers_of(params, areas, rng), area_centroid(subject.p, subject.faces)
+    areas = face_areas(p, faces)
+    small = p[faces].mean(axis=1)[:, 0] > 0
+    numbers = numbers_of(params, areas, rng)
+    middle = area_centroid(subject.p, subject.faces)
     counts = (
         *[n for n in (30, 100, 300, 1000, 3000, 10_000, 30_000) if n < params.throws],
         params.throws,

@@ -207,7 +207,8 @@ class State:
         """The relative error of a volume that was just measured; NaN where none was or the truth is
         not known.
         """
-        result, true = self.now, self.subject.volume
+        result = self.now
+        true = self.subject.volume
         if isinstance(result, Sums):
             return (
                 result.volume / true - 1
@@ -223,7 +224,8 @@ class State:
     @property
     def area_error(self) -> float:
         """The relative error of an area that was just measured; NaN where none was."""
-        result, true = self.now, self.subject.area
+        result = self.now
+        true = self.subject.area
         if isinstance(result, Sums):
             return (
                 result.area / true - 1 if result.count == len(self.subject.faces) else float("nan")

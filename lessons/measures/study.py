@@ -35,7 +35,8 @@ def peeked(share: float, counts: tuple[int, ...]) -> tuple[float, float]:
         share: Of the box that is inside.
         counts: How many points are thrown until each look.
     """
-    rng, n = np.random.default_rng(0), np.array(counts)
+    rng = np.random.default_rng(0)
+    n = np.array(counts)
     hits = np.cumsum(rng.binomial(np.diff(n, prepend=0), share, (RUNS, len(n))), axis=1) / n
     outside = np.abs(hits - share) > SURE * np.sqrt(hits * (1 - hits) / n)
     return float(outside[:, -1].mean()), float(outside.any(axis=1).mean())

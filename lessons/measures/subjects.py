@@ -108,7 +108,8 @@ def _of_mesh(
     name: str, p: np.ndarray, faces: np.ndarray, unit: str = "m", scale: float = 1.0, note: str = ""
 ):
     """Return a mesh that is measured against itself: all its faces, as they are."""
-    closed, mesh = encloses(faces), columns(p, faces)
+    closed = encloses(faces)
+    mesh = columns(p, faces)
     return Subject(
         name=name,
         p=p,
@@ -139,7 +140,8 @@ def _grids(subject: Subject, params: Params) -> tuple[tuple[int, Grid], ...]:
 
 def _spoilt(subject: Subject, params: Params) -> np.ndarray:
     """Return the faces with a hole, and some of them turned round."""
-    faces, rng = subject.whole, np.random.default_rng(params.seed)
+    faces = subject.whole
+    rng = np.random.default_rng(params.seed)
     turned = rng.random(len(faces)) < params.flipped
     faces = np.where(turned[:, None], faces[:, ::-1], faces)
     middles = subject.p[faces].mean(axis=1)

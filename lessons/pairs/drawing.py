@@ -42,7 +42,8 @@ PLACES = {"pairs": "pairs", "centre": "middles", "cross": "matrix", "flip": "mir
 
 def draw(look: Look[Input, Scans, State]) -> Scene:
     """Return the picture of one step."""
-    scans, fit = look.subject, look.now.now
+    scans = look.subject
+    fit = look.now.now
     T = np.eye(4) if fit.stage == "pairs" else scans.T_world_target @ fit.T_target_source
     mirrored = bool(np.linalg.det(fit.T_target_source[:3, :3]) < 0)
     scene = _clouds(scans, T, mirrored) | _bands(scans, T)
@@ -91,7 +92,8 @@ def _lines(
     path: str, p: np.ndarray, axes: np.ndarray, T: np.ndarray, strength: np.ndarray | None
 ) -> dict[str, Primitive]:
     """Return three lines through a point along the columns of a matrix, each with its strength."""
-    ends, scene = between(p - axes.T, p + axes.T), dict[str, Primitive]()
+    ends = between(p - axes.T, p + axes.T)
+    scene = dict[str, Primitive]()
     for k in range(3):
         opacity = 0.4 if strength is None else 1.0
         scene[f"{path}/{k + 1}"] = Segments(ends[[k]], COLORS[k], 4, T, opacity)
@@ -123,7 +125,8 @@ def _missed(scans: Scans, state: State, T: np.ndarray) -> dict[str, Primitive]:
 
 def _charts(look: Look[Input, Scans, State]) -> dict[str, Primitive]:
     scans, state, params = look.subject, look.now, look.params
-    fit, begun = state.now, state.now.stage != "pairs"
+    fit = state.now
+    begun = state.now.stage != "pairs"
     off = scans.degrees_off(fit.T_target_source) if begun else np.nan
     scene: dict[str, Primitive] = {
         "rmse": RMSE.scalar(fit.rmse if begun else np.nan, "RMSE of the pairs"),
@@ -166,7 +169,9 @@ def _charts(look: Look[Input, Scans, State]) -> dict[str, Primitive]:
 
 def caption(look: Look[Input, Scans, State]) -> Caption:
     """Return what just happened, with the number that changed."""
-    scans, state, fit = look.subject, look.now, look.now.now
+    scans = look.subject
+    state = look.now
+    fit = look.now.now
     place = PLACES.get(fit.stage, fit.stage)
     rmse = metres(fit.rmse)
     if fit.stage == "pairs":
@@ -224,7 +229,8 @@ def _of_flip(look: Look[Input, Scans, State]) -> str:
 def _of_scale(scans: Scans, state: State) -> Caption:
     fit = state.now
     assert fit.scale is not None
-    scale, rmse = decimals(fit.scale, 3), metres(fit.rmse)
+    scale = decimals(fit.scale, 3)
+    rmse = metres(fit.rmse)
     off = scans.degrees_off(fit.T_target_source)
     if not np.isfinite(off):
         return say(

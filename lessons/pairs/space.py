@@ -90,13 +90,15 @@ def built_in(params: Input) -> Scans:
     R = exp_so3(np.radians(params.turn) * SLANT)
     mirrored = params.mirrored
     in_target, in_source = rng.standard_normal((2, *shape.shape))
-    p_whole, turned = params.scale * shape, (shape * [1.0, 1.0, -1.0] if mirrored else shape) @ R
+    p_whole = params.scale * shape
+    turned = (shape * [1.0, 1.0, -1.0] if mirrored else shape) @ R
     in_source = in_source * 0.0 if params.noise and params.noisy == "target" else in_source
     p_target, p_source = p_whole + params.noise * in_target, turned + params.noise * in_source
     T = None if mirrored else motion(params.scale * R, np.zeros(3))
     order = rng.permutation(len(shape))
     scales = {}
-    p_paired, is_wrong = p_target, np.zeros(len(shape), bool)
+    p_paired = p_target
+    is_wrong = np.zeros(len(shape), bool)
     if params.wrong:
         together = params.mistakes == "together"
         p_paired, is_wrong = mispaired(p_target, params.wrong, together, order)
@@ -138,7 +140,8 @@ def mispaired(
     """
     count = round(wrong / 100.0 * len(p_target))
     rows = np.argsort(-p_target[:, 2], kind="stable")[:count] if together else order[:count]
-    p, is_wrong = p_target.copy(), np.zeros(len(p_target), bool)
+    p = p_target.copy()
+    is_wrong = np.zeros(len(p_target), bool)
     p[rows] = p_target[rows] + [ASIDE, 0.0, 0.0] if together else p_target[np.roll(rows, 1)]
     is_wrong[rows] = True
     return p, is_wrong

@@ -81,7 +81,9 @@ def _lens(look: PinholeLook) -> dict[str, Primitive]:
 
 def tables(look: PinholeLook) -> dict[str, Primitive]:
     """Return the followed point's journey so far, and what can be measured of the camera."""
-    shot, state, k = look.subject, look.now.now, look.subject.k
+    shot = look.subject
+    state = look.now.now
+    k = look.subject.k
     rows = [("in the world", f"{coordinates(state.p_world[k], 2)} m")]
     if state.reached("camera"):
         p = state.p_camera[k]

@@ -39,7 +39,9 @@ GROUND = 0.4  # opacity, so that the floor is dark where the page is
 
 def draw(look: PinholeLook) -> Scene:
     """Return the picture of one stage."""
-    shot, state, k = look.subject, look.now.now, look.subject.k
+    shot = look.subject
+    state = look.now.now
+    k = look.subject.k
     T_world_camera = inverse(shot.T_camera_world)
     glass = pane.standing(look)
     w, h = glass.size
@@ -100,8 +102,11 @@ def _followed_ray(look: PinholeLook) -> dict[str, Primitive]:
     """Return the ray of the followed point, and where it pierces the pane while that is only
     seen.
     """
-    shot, state, k = look.subject, look.now.now, look.subject.k
-    p, C = state.p_world[k], camera_center(shot.T_camera_world)
+    shot = look.subject
+    state = look.now.now
+    k = look.subject.k
+    p = state.p_world[k]
+    C = camera_center(shot.T_camera_world)
     z = float(apply(shot.T_camera_world, p)[2])
     v = (p - C) / z if z else p - C  # one metre of depth
     through = state.stage in ("world", "camera") or np.isfinite(state.xy[k]).all()

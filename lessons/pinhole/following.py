@@ -69,7 +69,8 @@ class State:
 
 def start(p_world: np.ndarray) -> State:
     """Return the state in which only the points in the world are known."""
-    space, plane = np.full_like(p_world, np.nan), np.full((len(p_world), 2), np.nan)
+    space = np.full_like(p_world, np.nan)
+    plane = np.full((len(p_world), 2), np.nan)
     return State("world", p_world, space, plane, plane, plane, np.full(3, np.nan), space)
 
 

@@ -33,7 +33,8 @@ ON_RAILS = (3, 4)  # the points that are on a rail
 
 def standing(look: PinholeLook) -> Picture:
     """Return the pane where it stands, with the photograph and what is laid over it."""
-    shot, away = look.subject, look.params.pane * look.params.dolly
+    shot = look.subject
+    away = look.params.pane * look.params.dolly
     h, w = look.now.picture.shape[:2]
     f, cx, cy = shot.K[0, 0], shot.K[0, 2], shot.K[1, 2]
     T = inverse(shot.T_camera_world)
@@ -71,7 +72,9 @@ def seen_at(glass: Picture, shot: Shot, p: np.ndarray) -> np.ndarray:
 
 def landed(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     """Return the dots of all points on the pane, the followed one larger."""
-    shot, state, k = look.subject, look.now.now, look.subject.k
+    shot = look.subject
+    state = look.now.now
+    k = look.subject.k
     uv = state.seen(shot.K)
     near = _near(glass, uv)
     if not near.any():
@@ -95,7 +98,8 @@ def landed(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
 
 def bent_grid(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     """Return a straight grid, the same as the lens bends it, and how far it moves the points."""
-    shot, state = look.subject, look.now.now
+    shot = look.subject
+    state = look.now.now
     w, h = glass.size
     across, down = (np.linspace(-0.5, size - 0.5, 9) for size in (w, h))
     t = np.linspace(0.0, 1.0, 25)

@@ -139,7 +139,8 @@ def gap(params: Input, by: float) -> float:
 
     The orthographic picture is the one to which the dolly tends, with f / Z pixels per metre.
     """
-    eye, corners = pinhole_of(params, by), street().edges.reshape(-1, 3)
+    eye = pinhole_of(params, by)
+    corners = street().edges.reshape(-1, 3)
     distance = by * np.linalg.norm(np.subtract(params.target, params.camera))
     K_flat = eye.K_first.copy()
     K_flat[:2, :2] /= distance
@@ -153,7 +154,8 @@ def followed(params: Input, eye: Pinhole) -> tuple[np.ndarray, int]:
     """Return the points of the street and which one is followed: the lamp where it hangs on a
     ray.
     """
-    points, T = street().points, eye.T_camera_world
+    points = street().points
+    T = eye.T_camera_world
     uv = project(points[params.point : params.point + 1], T, eye.K)
     if params.z == 0.0 or not np.isfinite(uv).all():
         return points, params.point

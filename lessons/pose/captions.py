@@ -95,7 +95,8 @@ def _given(state: State) -> str:
 
 
 def _rays(state: State, search: Searched) -> str:
-    p, n = state.subject.given.p_world, unit_rays(state.subject.xy[:3])
+    p = state.subject.given.p_world
+    n = unit_rays(state.subject.xy[:3])
     sides = ", ".join(length(float(np.linalg.norm(p[i] - p[j]))) for i, j in SIDES)
     angles = ", ".join(angle(float(np.degrees(angle_between(n[i], n[j])))) for i, j in SIDES)
     return (
@@ -115,7 +116,8 @@ def _quartic(state: State, search: Searched) -> str:
 
 
 def _root(state: State, search: Searched) -> str:
-    k, subject = len(search.candidates), state.subject
+    k = len(search.candidates)
+    subject = state.subject
     if state.T is None:
         return (
             f"Solution {k} of {len(search.lengths)}: its pose holds numbers that are not finite. It"
@@ -156,10 +158,8 @@ def _choose(state: State, search: Searched) -> str:
 
 
 def _solved(state: State, search: Searched) -> str:
-    n, controls = (
-        len(state.subject.p_shown),
-        "three" if is_flat(state.subject.given.p_world) else "four",
-    )
+    n = len(state.subject.p_shown)
+    controls = "three" if is_flat(state.subject.given.p_world) else "four"
     text = {
         "DLT": (
             f"The linear transform: a 3×4 matrix from all {n} points at once, and the rotation"
@@ -186,8 +186,11 @@ def _step(state: State, search: Searched) -> str:
 
 
 def _sampled(state: State, step: ransac.State) -> Caption:
-    known, limit = state.subject.T_true is not None, pixels(state.params.inlier_pixels)
-    fit, sample, off = step.trial or step.best, f"Sample {step.iteration}", _off(state)
+    known = state.subject.T_true is not None
+    limit = pixels(state.params.inlier_pixels)
+    fit = step.trial or step.best
+    sample = f"Sample {step.iteration}"
+    off = _off(state)
     within = f"{fit.count if fit else 0} of {len(state.subject.p_shown)} points"
     if step.phase == "stop":
         assert step.stop is not None
@@ -224,10 +227,8 @@ def _sampled(state: State, step: ransac.State) -> Caption:
 
 
 def _repeated(state: State, trials: Repeated) -> Caption:
-    n, right = (
-        trials.pictures,
-        int(np.count_nonzero(state.subject.near(trials.degrees, trials.metres))),
-    )
+    n = trials.pictures
+    right = int(np.count_nonzero(state.subject.near(trials.degrees, trials.metres)))
     if not len(trials.Ts):
         return Caption(
             f"In none of {n} other pictures, with other noise, is there a solution: all are wrong.",

@@ -125,7 +125,8 @@ def _still(subject: Subject) -> dict[str, Primitive]:
 def _on(photograph: Picture, subject: Subject, uv: np.ndarray) -> np.ndarray:
     """Return the places of pixels on the photograph, and no further from it than half its size."""
     w, h = photograph.size
-    left_top, size = subject.window[:2], subject.window[2:] - subject.window[:2]
+    left_top = subject.window[:2]
+    size = subject.window[2:] - subject.window[:2]
     inside = np.clip((uv - left_top) / size, -0.5, 1.5)
     assert photograph.width is not None
     return photograph.places(inside * [w, h] - 0.5, 0.01 * photograph.width)
@@ -135,7 +136,8 @@ def _pixels(state: State, photograph: Picture) -> dict[str, Primitive]:
     """Return where points were seen, and where the pose in question sees them."""
     subject, T, step = state.subject, state.T, state.now
     assert photograph.width is not None
-    radius, color = 0.012 * photograph.width, _votes(step)
+    radius = 0.012 * photograph.width
+    color = _votes(step)
     scene: dict[str, Primitive] = {
         "picture/seen": Points(_on(photograph, subject, subject.given.uv), color, radius)
     }
@@ -147,7 +149,8 @@ def _pixels(state: State, photograph: Picture) -> dict[str, Primitive]:
         return scene
     errors = subject.pixel_errors(T)[front]
     factor = ENLARGED if rms(errors) < SMALL else 1
-    start, end = subject.given.uv[front], uv[front]
+    start = subject.given.uv[front]
+    end = uv[front]
     ends = between(
         *(_on(photograph, subject, at) for at in (start, start + factor * (end - start)))
     )
@@ -219,7 +222,8 @@ def _candidates(state: State, search: Searched) -> dict[str, Primitive]:
     """Return the motions to choose from, as cameras with the rays to their points, and for planes
     as planes.
     """
-    subject, scene = state.subject, dict[str, Primitive]()
+    subject = state.subject
+    scene = dict[str, Primitive]()
     if search.phase not in ("root", "both", "choose"):
         return scene
     rows = []
@@ -234,10 +238,8 @@ def _candidates(state: State, search: Searched) -> dict[str, Primitive]:
                 seen, "other", 2.5, name="what it would see" if k == 1 else ""
             )
         elif state.params.method == "P3P":
-            eye, last = (
-                subject.frame.shown(camera_center(T)),
-                k == len(search.candidates) and search.phase == "root",
-            )
+            eye = subject.frame.shown(camera_center(T))
+            last = k == len(search.candidates) and search.phase == "root"
             ends = between(eye, subject.p_shown[:3])
             scene[f"candidates/{k}/rays"] = Segments(
                 ends, "highlight" if last else "correspondence", 2.0 if last else 1.0

@@ -58,7 +58,9 @@ def run(
         for drawn in sampled(params, subject):
             yield State(params=params, subject=subject, now=drawn)
         return
-    p, xy, T = subject.given.p_world, subject.xy, None
+    p = subject.given.p_world
+    xy = subject.xy
+    T = None
     for step in first_pose(params, subject, pose_from_distances, choose_pose):
         T = step.T if step.phase in ("choose", "solved") else None
         yield State(params=params, subject=subject, now=step)
@@ -80,7 +82,8 @@ def first_pose(
     Raises:
         InputError: If the method cannot take these points.
     """
-    p, xy = subject.given.p_world, subject.xy
+    p = subject.given.p_world
+    xy = subject.xy
     if params.method == "P3P":
         return by_three_points(p, xy, pose_from_distances, choose_pose=choose_pose)
     if params.method == "IPPE":

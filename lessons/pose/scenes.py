@@ -67,7 +67,9 @@ def _made(params: Params) -> Subject:
     if params.target == "street":
         if params.camera[2] <= 0.0:
             raise InputError("the camera is under the street: move it up")
-        T_near, body, window = look_at(np.array(params.camera), AIM), _street(), WHOLE
+        T_near = look_at(np.array(params.camera), AIM)
+        body = _street()
+        window = WHOLE
         photograph = _photograph(street_items(), T_near, K, window)
         p = _mapped(T_near, K, photograph, params.points, rng)
     else:
@@ -115,7 +117,8 @@ def _stood(params: Params) -> np.ndarray:
     """Return the motion of the camera before its target."""
     eye = np.array(params.camera)
     if params.target == "marker":
-        tilt, turn = np.radians(params.tilt), 0.3
+        tilt = np.radians(params.tilt)
+        turn = 0.3
         eye = params.distance * np.array(
             [np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)]
         )
@@ -151,7 +154,8 @@ def _window(uv: np.ndarray) -> np.ndarray:
     photograph.
     """
     low, high = uv.min(axis=0), uv.max(axis=0)
-    middle, size = (low + high) / 2, 1.5 * np.maximum(high - low, 8.0)
+    middle = (low + high) / 2
+    size = 1.5 * np.maximum(high - low, 8.0)
     w, h = PHOTOGRAPH
     half = 0.5 * max(size[0], size[1] * w / h) * np.array([1.0, h / w])
     return np.concatenate([middle - half, middle + half])

@@ -21,11 +21,14 @@ ANEW = 300
 def repeated(params: Params, subject: Subject) -> Repeated:
     """Return what the method finds in other pictures of the same scene, with other noise."""
     assert subject.T_true is not None
-    rng, p, swapped = np.random.default_rng([params.seed, 1]), subject.given.p_world, None
+    rng = np.random.default_rng([params.seed, 1])
+    p = subject.given.p_world
+    swapped = None
     n = MARKERS if params.method == "IPPE" else PICTURES
     options = {"sigma": params.noise, "is_outlier": subject.given.is_outlier}
     uv = np.stack([seen(p, subject.T_true, subject.K, rng, **options).uv for _ in range(n)])
-    xy, of_picture = normalize(uv.reshape(-1, 2), subject.K).reshape(uv.shape), np.arange(n)
+    xy = normalize(uv.reshape(-1, 2), subject.K).reshape(uv.shape)
+    of_picture = np.arange(n)
     if params.method == "P3P":
         Ts, of_picture = by_fourth_points(p, xy)
     elif params.method == "DLT":

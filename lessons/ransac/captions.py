@@ -47,7 +47,9 @@ def distance(subject: Subject, value: float) -> Quantity:
 
 
 def _sample(look: SearchLook) -> Caption:
-    params, state, noun = look.params, look.now, look.subject.noun
+    params = look.params
+    state = look.now
+    noun = look.subject.noun
     how = "drawn by chance" if params.sampler == "uniform" else "drawn by trust"
     if state.iteration == 1 and chosen_sample(params, look.subject):
         how = "you picked"
@@ -69,7 +71,8 @@ def _model(look: SearchLook) -> Caption:
 
 
 def _votes(look: SearchLook) -> Caption:
-    state, trial = look.now, sure(look.now.trial)
+    state = look.now
+    trial = sure(look.now.trial)
     words = f"Sample {{n}} gets {{votes}} votes of {{all}} {look.subject.noun}{_score(look)}"
     values: dict = {"n": state.iteration, "votes": trial.count, "all": len(trial.inliers)}
     if look.params.score != "count":
@@ -85,7 +88,9 @@ def _score(look: SearchLook) -> str:
 
 
 def _best(look: SearchLook) -> Caption:
-    params, state, best = look.params, look.now, sure(look.now.best)
+    params = look.params
+    state = look.now
+    best = sure(look.now.best)
     values: dict = {"n": counted(state.iteration, "sample"), "votes": counted(best.count, "vote")}
     words = "New best after {n}: {votes}."
     if params.sampler == "PROSAC":
@@ -102,7 +107,8 @@ def _best(look: SearchLook) -> Caption:
 
 
 def _refit(look: SearchLook) -> Caption:
-    subject, best = look.subject, sure(look.now.best)
+    subject = look.subject
+    best = sure(look.now.best)
     before = look.before.best if look.before is not None else None
     values: dict = {"votes": best.count}
     words = "Refit to the voters: {votes} votes"
@@ -116,7 +122,9 @@ def _refit(look: SearchLook) -> Caption:
 
 
 def _stop(look: SearchLook) -> Caption:
-    subject, state, best = look.subject, look.now, look.now.best
+    subject = look.subject
+    state = look.now
+    best = look.now.best
     settled = state.stop is Stop.ENOUGH
     reason = sure(state.stop).message
     values: dict = {"n": counted(state.iteration, "sample")}
@@ -167,7 +175,8 @@ def _proportion(look: SearchLook, *, first: bool = False) -> str:
     params, subject = look.params, look.subject
     if params.cloud is None and params.matches is None:
         return ""
-    size, limit = float(np.linalg.norm(np.ptp(subject.p, axis=0))), subject.limit
+    size = float(np.linalg.norm(np.ptp(subject.p, axis=0)))
+    limit = subject.limit
     if (first and look.now.iteration > 1) or not size or size / 5000.0 <= limit <= size / 10.0:
         return ""
     few = "few" if limit < size / 10.0 else "nearly all"

@@ -140,7 +140,8 @@ def _two_planes(look: SearchLook) -> dict[str, Primitive]:
     """Count the votes of both planes' points for the best so far, beside the planes and as
     curves.
     """
-    subject, best = look.subject, look.now.best
+    subject = look.subject
+    best = look.now.best
     if subject.is_other is None or subject.is_inlier is None:
         return {}
     scene: dict[str, Primitive] = {}
@@ -160,7 +161,8 @@ def _background(subject: Subject) -> dict[str, Primitive]:
     if len(borders):
         scene["frame"] = Segments(borders, "neutral", 1.5)
     for k, size in enumerate(subject.sizes):
-        word, place = IMAGES[k], subject.places[k]
+        word = IMAGES[k]
+        place = subject.places[k]
         top = np.array([[size[0] / 2.0, -14.0 * size[0] / 640.0]])
         scene[f"label {word}"] = Label(word, place(top)[0])
         image = subject.images[k]
@@ -181,7 +183,8 @@ def _photograph(image: np.ndarray, place) -> Picture:
 
 def _curves(look: SearchLook) -> dict[str, Primitive]:
     params, subject, state = look.params, look.subject, look.now
-    unit, drawn = subject.model.unit, float(state.iteration)
+    unit = subject.model.unit
+    drawn = float(state.iteration)
     votes = Chart("Votes" if params.score == "count" else "Score")
     samples = Chart("Samples")
     left = float(max(state.needed - drawn, 0.0))
@@ -228,7 +231,9 @@ def _histogram(subject: Subject, distances: np.ndarray) -> Curve:
     """Count how many rows lie how far from the model in question; the mark is the inlier
     distance.
     """
-    limit, unit, noun = subject.limit, subject.model.unit, f"number of {subject.noun}"
+    limit = subject.limit
+    unit = subject.model.unit
+    noun = f"number of {subject.noun}"
     chart = Chart("Distances to the model", f"distance ({unit})", noun)
     bins = np.linspace(0.0, 8.0 * limit, 33)
     return chart.histogram(distances, bins, subject.noun, "target", marks=(limit,))

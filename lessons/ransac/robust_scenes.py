@@ -47,7 +47,8 @@ def line_scene(
     drags least squares up.
     """
     inliers, outliers = _split(count, outlier_ratio)
-    slope, height = rng.uniform(-0.3, 0.3), rng.uniform(-0.6, -0.3)
+    slope = rng.uniform(-0.3, 0.3)
+    height = rng.uniform(-0.6, -0.3)
     x = rng.uniform(-1.0, 1.0, inliers)
     p_true = np.column_stack([x, height + slope * x])
     clutter = np.column_stack(
@@ -131,7 +132,8 @@ def circle_scene(
     one side.
     """
     inliers, outliers = _split(count, outlier_ratio)
-    center, radius = rng.uniform(-0.35, 0.0, 2), rng.uniform(0.45, 0.6)
+    center = rng.uniform(-0.35, 0.0, 2)
+    radius = rng.uniform(0.45, 0.6)
     angle = rng.uniform(0.0, 2.0) * np.pi + rng.uniform(0.0, 4.0 / 3.0, inliers) * np.pi
     p_true = center + radius * np.column_stack([np.cos(angle), np.sin(angle)])
     clutter = 1.0 - 2.0 * rng.random((outliers, 2)) ** 1.5
@@ -143,7 +145,8 @@ def sphere_scene(
 ) -> RobustScene:
     """Return points of the upper half of a ball, with clutter in a box of 2 m around it."""
     inliers, outliers = _split(count, outlier_ratio)
-    center, radius = np.append(rng.uniform(-0.3, 0.3, 2), 0.3), rng.uniform(0.4, 0.55)
+    center = np.append(rng.uniform(-0.3, 0.3, 2), 0.3)
+    radius = rng.uniform(0.4, 0.55)
     direction = rng.normal(size=(inliers, 3))
     direction[:, 2] = np.abs(direction[:, 2])
     p_true = center + radius * direction / np.linalg.norm(direction, axis=1, keepdims=True)
@@ -243,8 +246,10 @@ def _mixed(
     """
     noisy = p_true + sigma * rng.normal(size=p_true.shape)
     p = np.concatenate([noisy, others])
-    rows, end = np.arange(len(p)), len(p_true)
-    is_inlier, is_other = rows < end, (rows >= end) & (rows < end + other)
+    rows = np.arange(len(p))
+    end = len(p_true)
+    is_inlier = rows < end
+    is_other = (rows >= end) & (rows < end + other)
     quality = np.clip(rng.normal(np.where(is_inlier, 0.65, 0.4), 0.15), 0.0, 1.0)
     order = np.append(np.arange(first), first + rng.permutation(len(p) - first))
     known = is_other[order] if other else None

@@ -118,7 +118,8 @@ def rows_of(params: Input) -> Subject:
 @cached
 def built_in(params: Input, outliers: float) -> Subject:
     """Return a scene of our own with a share of outliers."""
-    model, rng = MODELS[params.model], np.random.default_rng(params.scene_seed)
+    model = MODELS[params.model]
+    rng = np.random.default_rng(params.scene_seed)
     sigma = params.noise_pixels if model.unit == "px" else params.noise
     given = {"count": params.points, "outlier_ratio": outliers, "sigma": sigma}
     if params.model == "plane" and params.table == "beside a wall":
@@ -142,7 +143,8 @@ def built_in(params: Input, outliers: float) -> Subject:
     if model.columns == 2:
         window = np.array([1.1, 1.1])
         return Subject(model=model, p=made.p, low=-window, high=window, places=(stand_up,), **known)
-    low, high = np.array([-1.15, -1.15, -0.3]), np.array([1.15, 1.15, 1.5])
+    low = np.array([-1.15, -1.15, -0.3])
+    high = np.array([1.15, 1.15, 1.5])
     return Subject(model=model, p=made.p, low=low, high=high, places=(np.asarray,), **known)
 
 
@@ -175,7 +177,8 @@ def _own_matches(params: Input, model: Model) -> Subject:
     if len(p) > MOST_POINTS:
         rng = np.random.default_rng(params.scene_seed)
         rows = rng.choice(len(p), MOST_POINTS, replace=False)
-        p, quality = p[rows], None if quality is None else quality[rows]
+        p = p[rows]
+        quality = None if quality is None else quality[rows]
     truth = matches.H if model.name == "homography" else matches.F
     near = np.zeros(len(p), bool)
     if truth is not None:
@@ -211,7 +214,8 @@ def _of_matches(
     **known,
 ) -> Subject:
     """Stand the two images up side by side, facing the viewer."""
-    width_first, height = sizes[0][0] * pixel, max(size[1] for size in sizes) * pixel
+    width_first = sizes[0][0] * pixel
+    height = max(size[1] for size in sizes) * pixel
     left = (-GAP / 2 - width_first, GAP / 2)
     return Subject(
         model=model,
@@ -227,7 +231,8 @@ def _of_matches(
 
 def _on_image(left: float, top: float, pixel: float) -> Callable[[np.ndarray], np.ndarray]:
     def place(uv: np.ndarray) -> np.ndarray:
-        x, z = left + pixel * uv[:, 0], top - pixel * uv[:, 1]
+        x = left + pixel * uv[:, 0]
+        z = top - pixel * uv[:, 1]
         return np.column_stack([x, np.zeros(len(uv)), z])
 
     return place

@@ -82,7 +82,8 @@ def search(
     """Yield the parts of RANSAC that are shown. On planes the functions given here do their
     work.
     """
-    model, judge = subject.model, _judge(params, subject)
+    model = subject.model
+    judge = _judge(params, subject)
     if model is PLANE:
         model = replace(PLANE, solve=from_points(_checked(plane_from_points)))
         judge = _counting(judge, count_inliers, decides=params.score == "count")

@@ -22,7 +22,8 @@ def marked(votes: np.ndarray) -> Classes:
 
 def outline(subject: Subject, estimate: np.ndarray) -> np.ndarray:
     """Return the segments (n, 2, 3) that show an estimate; of F the lines of some matches."""
-    name, ends = subject.model.name, NOTHING
+    name = subject.model.name
+    ends = NOTHING
     if name == "plane":
         corners = plane_in_box(estimate, subject.low, subject.high)
         return segments(subject.places[0](corners), closed=True) if len(corners) else NOTHING

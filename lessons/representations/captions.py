@@ -115,7 +115,8 @@ def _joined(state: State, joined: Joined) -> Caption:
 
 
 def _cells(state: State, cells: Cells) -> Caption:
-    n, subject = cells.grid.shape[0], sure(state.subject)
+    n = cells.grid.shape[0]
+    subject = sure(state.subject)
     if cells.values.dtype == bool:
         full = int(np.count_nonzero(cells.values))
         return Caption(
@@ -158,7 +159,8 @@ def _came_back(state: State, surface: Surface) -> str:
 
 
 def _level(level: Level) -> Caption:
-    cells, mixed = len(level.cells), int(level.mixed.sum())
+    cells = len(level.cells)
+    mixed = int(level.mixed.sum())
     text = f"Level {level.depth}, edges of {length(float(level.grid.spacing[0]), 2)}: {mixed:,} of"
     text += (
         f" {counted(cells, 'cell')} may be crossed by the surface, as far as their middle knows."
@@ -188,7 +190,8 @@ def _built(built: Built) -> Caption:
 
 
 def _searched(search: Searched) -> Caption:
-    visit, n = search.visits[-1], len(search.tree.p)
+    visit = search.visits[-1]
+    n = len(search.tree.p)
     text = f"Cell {len(search.visits):,} of the search: {visit.looked:,} of {n:,} points looked at"
     text += f" ({percent(visit.looked / n)}), the nearest so far {length(visit.distance, 2)} away."
     if len(search.visits) == 1:
@@ -245,7 +248,8 @@ def _patches(state: State, patches: Patches) -> Caption:
 
 
 def _fitted(state: State, fitted: Fitted) -> Caption:
-    trained, surface = fitted.trained, sure(state.surface)
+    trained = fitted.trained
+    surface = sure(state.surface)
     text = f"{counted(trained.iterations, 'iteration')}, loss {loss(trained.loss)}"
     if not len(surface.p):
         low, high = float(fitted.values.min()), float(fitted.values.max())
@@ -264,7 +268,9 @@ def loss(value: float) -> str:
 
 
 def _others(state: State) -> Caption:
-    subject, form, surface = sure(state.subject), state.now, state.surface
+    subject = sure(state.subject)
+    form = state.now
+    surface = state.surface
     names = ", ".join(_NAMES[name] for name in state.others)
     if surface is not None and not len(surface.p):
         return Caption(

@@ -78,7 +78,8 @@ def _memory(state: State) -> dict[str, Primitive]:
         curve = MEMORY.curve if len(sizes) > 1 else MEMORY.dots
         scene[f"memory/{name}"] = curve(np.log10(sizes), _log(errors), name, ROLES[name])
     if state.sizes:
-        x, y = np.log10(np.array(state.sizes, float)), _log(np.array(state.errors))
+        x = np.log10(np.array(state.sizes, float))
+        y = _log(np.array(state.errors))
         dots = len(x) == 1 or state.params.form == "neural"
         scene["memory/now"] = (MEMORY.dots if dots else MEMORY.curve)(
             x, y, form_of(state.params), "source"
@@ -129,7 +130,8 @@ def _levels(state: State, level: Level) -> dict[str, Primitive]:
 def _search(form: Built | Searched) -> dict[str, Primitive]:
     if isinstance(form, Built) or form.visits[-1].looked == 0:
         return {}
-    visits, n = form.visits, len(form.tree.p)
+    visits = form.visits
+    n = len(form.tree.p)
     chart = Chart("The search", "cells looked into", "% of the points")
     x = np.arange(1.0, len(visits) + 1)
     looked = 100 * np.array([visit.looked for visit in visits]) / n

@@ -124,7 +124,8 @@ def _slice(values: np.ndarray, grid: Grid, *, aside: bool) -> Picture:
 
 
 def _level(level: Level) -> dict[str, Primitive]:
-    mixed, h = level.cells[level.mixed], float(level.grid.spacing[0])
+    mixed = level.cells[level.mixed]
+    h = float(level.grid.spacing[0])
     scene: dict[str, Primitive] = {
         "cube": Segments(2.0 * RIMS - 1.0, "neutral", 2, name="the whole cube")
     }

@@ -76,7 +76,8 @@ def grown(state: State, size: int, error: float) -> State:
 
 def cloud(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield ever more points of the surface."""
-    p, state = spread(params, subject), State(params=params, subject=subject)
+    p = spread(params, subject)
+    state = State(params=params, subject=subject)
     counts = CLOUD_FROM * 2 ** np.arange(0, 11)
     for count in (*counts[counts < len(p)].tolist(), len(p)):
         mean, worst, hole = covered(subject, p[:count])
@@ -216,19 +217,15 @@ def octree(params: Params, subject: Subject, functions: Functions) -> Steps:
 
 def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield a network while it learns the distance, and where its field is zero."""
-    rng, state, grid = (
-        np.random.default_rng(params.seed),
-        State(params=params, subject=subject),
-        cube(NEURAL_CELLS),
-    )
+    rng = np.random.default_rng(params.seed)
+    state = State(params=params, subject=subject)
+    grid = cube(NEURAL_CELLS)
     near = points_on_faces(subject.p, subject.faces, rng.random((NEAR, 3)))
     p = np.concatenate(
         [near + NEAR_SPREAD * rng.standard_normal(near.shape), rng.uniform(-1, 1, (FAR, 3))]
     )
-    network, corners = (
-        new_network(params.width, params.features, params.activation, rng=rng),
-        grid.centres(),
-    )
+    network = new_network(params.width, params.features, params.activation, rng=rng)
+    corners = grid.centres()
     counts = iteration_counts(params.iterations)
     distances_of = subject.field(p).take if subject.quick else _known(subject, p.tobytes())
     training = train_field(network, p, distances_of, counts=counts, target=params.target, rng=rng)
@@ -301,7 +298,10 @@ def _square(n: int) -> tuple[np.ndarray, np.ndarray]:
     i, j = (
         index.ravel() for index in np.meshgrid(np.arange(n - 1), np.arange(n - 1), indexing="ij")
     )
-    a, b, c, d = n * i + j, n * (i + 1) + j, n * (i + 1) + j + 1, n * i + j + 1
+    a = n * i + j
+    b = n * (i + 1) + j
+    c = n * (i + 1) + j + 1
+    d = n * i + j + 1
     faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
     return np.stack(np.meshgrid(ends, ends, indexing="ij"), axis=-1).reshape(-1, 2), faces
 
@@ -317,7 +317,8 @@ def evaluated(bezier_patch: BezierPatch, control: np.ndarray, uv: np.ndarray) ->
 
 def kd_tree(params: Params, subject: Subject | None, functions: Functions) -> Steps:
     """Yield the cuts of a k-d tree, then the cells that a search looks into."""
-    rng, d = np.random.default_rng(params.seed), params.dimensions if subject is None else 3
+    rng = np.random.default_rng(params.seed)
+    d = params.dimensions if subject is None else 3
     p = rng.uniform(-1, 1, (params.points, d)) if subject is None else spread(params, subject)
     tree = build_tree(p, np.full(d, -1.0), np.full(d, 1.0))
     query = np.concatenate([params.query, rng.uniform(-1, 1, d)])[:d]
@@ -346,7 +347,8 @@ def _growth(seed: int) -> Growth:
         tree = build_tree(rng.random((n, d)), np.zeros(d), np.ones(d))
         return float(looked_at(tree, rng.random((QUERIES if d < 10 else FEW_QUERIES, d))).mean())
 
-    counts, dimensions = np.array([250, 1000, 4000, 16_000]), np.array([2, 3, 5, 10, 15, 20])
+    counts = np.array([250, 1000, 4000, 16_000])
+    dimensions = np.array([2, 3, 5, 10, 15, 20])
     return Growth(
         counts=counts,
         looked=np.array([mean_looked(int(n), 3) for n in counts]),

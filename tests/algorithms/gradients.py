@@ -42,7 +42,8 @@ def assert_gradient(
         tolerance: Relative to the largest entry of the gradient.
         h: How far is stepped.
     """
-    drawn, chance = rng.bit_generator.state, np.random.default_rng(0)
+    drawn = rng.bit_generator.state
+    chance = np.random.default_rng(0)
 
     def at_the_same_batch() -> tuple[float, np.ndarray]:
         rng.bit_generator.state = drawn

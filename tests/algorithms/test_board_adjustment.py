@@ -51,7 +51,9 @@ def test_residuals_are_projected_minus_measured():
 @pytest.mark.parametrize("row", range(15))
 def test_slopes_are_those_of_differences(row):
     Ts, uv = views(1, 2)
-    R, t, h = Ts[:, :3, :3], Ts[:, :3, 3], 1e-6 * (100 if row < 4 else 1)
+    R = Ts[:, :3, :3]
+    t = Ts[:, :3, 3]
+    h = 1e-6 * (100 if row < 4 else 1)
 
     def residuals(step: float) -> np.ndarray:
         x = step * np.eye(15)[row]
@@ -119,7 +121,8 @@ def test_the_covariance_is_that_of_all_unknowns_and_of_repetition():
 def test_cauchy_is_scipys_loss_and_lets_far_corners_go():
     Ts, uv = views(3)
     uv[1, [0, 9, 18]] += [40.0, 30.0]
-    plain, robust = last_of(uv, Ts), last_of(uv, Ts, corner=0.5)
+    plain = last_of(uv, Ts)
+    robust = last_of(uv, Ts, corner=0.5)
     clean = np.delete(np.arange(54), [0, 9, 18])
     assert np.abs(plain.residuals[1, clean]).max() > 5
     assert np.abs(robust.residuals[1, clean]).max() < 1.5
@@ -191,10 +194,8 @@ def test_what_is_known_of_the_real_cameras(real):
     states = [state for state in calibrate(p, uv, (640, 480)) if state.adjustment is not None]
     found = states[-1].adjustment
     assert found is not None
-    rms, rejected = (
-        np.sqrt(found.cost / (uv.size / 2)),
-        sum(not s.adjustment.accepted for s in states if s.adjustment),
-    )
+    rms = np.sqrt(found.cost / (uv.size / 2))
+    rejected = sum(not s.adjustment.accepted for s in states if s.adjustment)
     if name == "left":
         assert rms == pytest.approx(0.40877, abs=1e-5)
         assert dict(zip(SHARED, found.deviations, strict=True))["fx"] == pytest.approx(

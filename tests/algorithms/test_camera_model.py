@@ -87,7 +87,8 @@ def test_many_samples_solved_together_give_the_states_of_one_by_one(seed, outlie
         0.2,
         0.3,
     ]  # samples of three of these are degenerate
-    model, found = camera_model(K), []
+    model = camera_model(K)
+    found = []
     for one in (model, replace(model, solve_each=None)):
         chosen = [np.array([0, 1, 2]), np.array([50, 60, 70]), np.array([50, 60, 70])]
         drawn = uniform_samples(len(table), 3, np.random.default_rng(seed))

@@ -65,7 +65,8 @@ def test_correlation_is_what_it_says(window):
     left, right = pair(2, dtype=float)
     cost = ncc_cost_volume(left, right, 4, window)
     assert np.isinf(cost[3, :, :3]).all()
-    d, half = 3, window // 2
+    d = 3
+    half = window // 2
     for y, x in ((half, d + half), (5, 10), (10 - half, 16 - half)):
         a = left[y - half : y + half + 1, x - half : x + half + 1].ravel()
         b = right[y - half : y + half + 1, x - d - half : x - d + half + 1].ravel()
@@ -136,7 +137,8 @@ def test_whole_numbers_and_floats_agree(volume):
 
 
 def test_large_windows_do_not_overflow():
-    left, right = np.full((30, 40), 255, np.uint8), np.zeros((30, 40), np.uint8)
+    left = np.full((30, 40), 255, np.uint8)
+    right = np.zeros((30, 40), np.uint8)
     assert sad_cost_volume(left, right, 1, 21).max() == 255 * 21**2
     assert ssd_cost_volume(left, right, 1, 21).max() == 255**2 * 21**2
 

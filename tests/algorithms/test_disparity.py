@@ -158,7 +158,8 @@ def test_the_median_equals_scipys(seed, h, w):
 @pytest.mark.parametrize("shift", [0, 3, 7])
 def test_a_shifted_picture_has_its_shift_as_disparity(compare, shift):
     scene = np.random.default_rng(1).random((24, 50)) * 255
-    left, right = scene[:, :40], scene[:, shift : shift + 40]
+    left = scene[:, :40]
+    right = scene[:, shift : shift + 40]
     last = list(match(left, right, 9, 5, None, compare))[-1]
     assert np.allclose(last.disparity[3:-3, 12:-3], shift, atol=0.35)
     assert last.matched[3:-3, 12:-3].all()
@@ -301,9 +302,11 @@ def plane_normal(depth, camera, rows, columns) -> np.ndarray:
     part = np.full_like(depth, np.nan)
     part[rows, columns] = depth[rows, columns]
     p_camera, _ = depth_cloud(part, camera)
-    rays, inverse_depth = p_camera / p_camera[:, 2:], 1.0 / p_camera[:, 2]
+    rays = p_camera / p_camera[:, 2:]
+    inverse_depth = 1.0 / p_camera[:, 2]
     half_pixel = 0.5 / (camera.f * camera.baseline)
-    rng, best = np.random.default_rng(0), np.zeros(len(rays), bool)
+    rng = np.random.default_rng(0)
+    best = np.zeros(len(rays), bool)
     for _ in range(200):
         three = rng.choice(len(rays), 3, replace=False)
         n = np.linalg.lstsq(rays[three], inverse_depth[three], rcond=None)[0]

@@ -16,7 +16,8 @@ from workbench.algorithms.surfaces.fast_marching import eikonal_update, march
 def by_heap(start, free, h):
     """Node by node, as Sethian has it."""
     n, m = start.shape
-    T, done = start.copy(), np.zeros((n, m), bool)
+    T = start.copy()
+    done = np.zeros((n, m), bool)
     heap = [(T[i, j], i, j) for i, j in zip(*np.nonzero(np.isfinite(T)), strict=True)]
     heapq.heapify(heap)
     given_ = np.isfinite(start)
@@ -31,7 +32,8 @@ def by_heap(start, free, h):
         done[i, j] = True
         for a, b in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
             if 0 <= a < n and 0 <= b < m and not done[a, b] and free[a, b] and not given_[a, b]:
-                x, y = min(at(a - 1, b), at(a + 1, b)), min(at(a, b - 1), at(a, b + 1))
+                x = min(at(a - 1, b), at(a + 1, b))
+                y = min(at(a, b - 1), at(a, b + 1))
                 low, high = min(x, y), max(x, y)
                 u = (
                     low + h

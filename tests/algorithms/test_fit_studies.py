@@ -27,7 +27,8 @@ def ended(p: np.ndarray):
 
 
 def test_repetition_agrees_with_the_covariance_where_errors_are_independent_and_not_where_they_are_alike():  # noqa: E501
-    rng, places = np.random.default_rng(0), arc_points(np.pi, 60)
+    rng = np.random.default_rng(0)
+    places = arc_points(np.pi, 60)
     end = ended(places + errors(rng, (60, 2), 0.02))
     ratios = []
     for kind in ("independent", "alike in neighbours"):
@@ -86,7 +87,8 @@ def test_circles_come_one_by_one_and_medians_arc_by_arc():
 
 
 def test_regression_is_too_flat_by_the_formula_and_perpendicular_distances_are_not():
-    rng, turn = np.random.default_rng(0), np.radians(60)
+    rng = np.random.default_rng(0)
+    turn = np.radians(60)
     along = rng.uniform(-1, 1, 400)
     places = along[:, None] * [np.cos(turn), np.sin(turn)]
     *_, last = compare_lines(places, places + 0.1 * rng.normal(size=(200, 400, 2)))

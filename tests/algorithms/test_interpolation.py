@@ -60,10 +60,8 @@ def test_the_screw_agrees_with_scipy(T_start, T_end):
 
 
 def test_the_screw_is_the_fractional_power():
-    T_start, T_end = (
-        exp_se3(np.array([1.0, 2, 3, 0.1, 0.2, 0.3])),
-        exp_se3(np.array([0.0, 1, 0, 1.0, -0.5, 0.4])),
-    )
+    T_start = exp_se3(np.array([1.0, 2, 3, 0.1, 0.2, 0.3]))
+    T_end = exp_se3(np.array([0.0, 1, 0, 1.0, -0.5, 0.4]))
     log = scipy.linalg.logm(T_end @ np.linalg.inv(T_start))
     np.testing.assert_allclose(
         screwed(T_start, T_end),
@@ -101,7 +99,8 @@ def test_every_way_ends_at_the_end(T_start, T_end):
 
 
 def test_one_euler_angle_alone_is_slerp():
-    zero, angles = np.zeros(3), np.array([0.0, 0.0, 2.0])
+    zero = np.zeros(3)
+    angles = np.array([0.0, 0.0, 2.0])
     states = lerp_of_euler_angles(
         zero, angles, "xyz", p_start=zero, p_end=zero, times=TIMES, euler_to_matrix=euler_to_matrix
     )

@@ -22,7 +22,8 @@ def tree_of(p: np.ndarray):
 def test_the_nearest_is_the_nearest(*, n, d, seed, on_a_grid):
     rng = np.random.default_rng(seed)
     p = rng.integers(0, 3, (n, d)).astype(float) if on_a_grid else rng.random((n, d))
-    q, tree = rng.random(d) * 2, tree_of(p)
+    q = rng.random(d) * 2
+    tree = tree_of(p)
     *_, last = search(tree, q)
     assert last.distance == pytest.approx(cKDTree(p).query(q)[0])
     assert np.linalg.norm(tree.p[last.nearest] - q) == pytest.approx(last.distance)
@@ -46,7 +47,8 @@ def test_cells_hold_their_points_and_part_them():
 
 def test_what_was_passed_over_is_farther_and_the_rest_was_looked_at():
     rng = np.random.default_rng(1)
-    tree, q = tree_of(rng.random((1000, 3))), rng.random(3)
+    tree = tree_of(rng.random((1000, 3)))
+    q = rng.random(3)
     visits = list(search(tree, q))
     last = visits[-1]
     for cell in last.passed:

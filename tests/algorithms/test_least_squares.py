@@ -54,7 +54,9 @@ def test_damped_the_sum_never_rises_and_every_ending_says_why(seed):
 @given(seed=seeds)
 def test_a_step_solves_the_damped_system_by_longer_rows(seed):
     rng = np.random.default_rng(seed)
-    r, J, damping = rng.normal(size=12), rng.normal(size=(12, 4)), float(rng.uniform(0, 3))
+    r = rng.normal(size=12)
+    J = rng.normal(size=(12, 4))
+    damping = float(rng.uniform(0, 3))
     rows = np.vstack([J, np.sqrt(damping) * np.diag(np.linalg.norm(J, axis=0))])
     by_rows = np.linalg.lstsq(rows, np.append(-r, np.zeros(4)), rcond=None)[0]
     np.testing.assert_allclose(damped_step(r, J, damping), by_rows, atol=1e-8)
@@ -66,13 +68,16 @@ def test_a_step_keeps_its_digits_where_the_normal_matrix_would_lose_half_of_them
     """
     rng = np.random.default_rng(0)
     a, b = rng.normal(size=20), rng.normal(size=20)
-    J, right = np.stack([a, a + 1e-6 * b], axis=1), np.array([3.0, -2.0])
+    J = np.stack([a, a + 1e-6 * b], axis=1)
+    right = np.array([3.0, -2.0])
     np.testing.assert_allclose(damped_step(-J @ right, J, 0.0), right, rtol=1e-8)
 
 
 def test_the_step_does_not_depend_on_units():
     rng = np.random.default_rng(0)
-    r, J, units = rng.normal(size=12), rng.normal(size=(12, 3)), np.array([1.0, 1000.0, 0.01])
+    r = rng.normal(size=12)
+    J = rng.normal(size=(12, 3))
+    units = np.array([1.0, 1000.0, 0.01])
     np.testing.assert_allclose(damped_step(r, J / units, 0.3), units * damped_step(r, J, 0.3))
 
 
@@ -153,7 +158,8 @@ def test_singular_and_infinite_ends_are_told():
 
 @pytest.mark.parametrize("damping", [1e-3, 0.0])
 def test_many_go_as_each_alone(damping):
-    p, rng = an_arc(1, 360.0), np.random.default_rng(5)
+    p = an_arc(1, 360.0)
+    rng = np.random.default_rng(5)
     starts = np.column_stack([rng.uniform(-0.6, 0.6, (6, 2)), rng.uniform(0.5, 1.5, 6)])
     *_, many = descend_many(lambda c: linearise_sphere(c, p), np.add, starts, damping)
     assert many.done.all()
@@ -180,7 +186,8 @@ def test_the_covariance_is_scipys():
 
 
 def test_the_covariance_is_that_of_repetition_where_all_it_takes_for_granted_holds():
-    rng, places = np.random.default_rng(0), arc_points(2 * np.pi, 60)
+    rng = np.random.default_rng(0)
+    places = arc_points(2 * np.pi, 60)
     p = places + 0.02 * rng.normal(size=(2000, 60, 2))
     *_, fits = descend_many(
         lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1))

@@ -7,7 +7,8 @@ from workbench.algorithms.least_squares.descent import _damped_steps
 
 def test_each_step_solves_the_system_with_its_diagonal_raised():
     rng = np.random.default_rng(0)
-    J, r = rng.normal(size=(5, 12, 3)) * [1.0, 50.0, 0.01], rng.normal(size=(5, 12))
+    J = rng.normal(size=(5, 12, 3)) * [1.0, 50.0, 0.01]
+    r = rng.normal(size=(5, 12))
     dampings = np.array([0.0, 1e-3, 0.1, 1.0, 30.0])
     for found, one, residual, damping in zip(
         _damped_steps(r, J, dampings), J, r, dampings, strict=True

@@ -39,7 +39,9 @@ def test_gradients_are_those_of_differences_where_points_stay_in_their_faces(mon
     values, gradient = descended(monkeypatch, mesh_fitting, lambda: training)
     places = places_on_faces(values, BALL.faces, np.random.default_rng(2).random((150, 3)))
     monkeypatch.setattr(mesh_fitting, "places_on_faces", lambda *_: places)
-    L, edges, pairs = umbrella(BALL.faces, 42), edges_of(BALL.faces), face_pairs(BALL.faces)
+    L = umbrella(BALL.faces, 42)
+    edges = edges_of(BALL.faces)
+    pairs = face_pairs(BALL.faces)
 
     def with_energies() -> tuple[float, np.ndarray]:
         loss, slope = gradient()
@@ -77,7 +79,8 @@ def test_a_ball_becomes_an_ellipsoid_and_a_laplacian_shrinks_it():
         assert found[-1].to_given == found[-1].to_truth
         return found[-1]
 
-    free, smooth = end(), end(laplacian=50.0)
+    free = end()
+    smooth = end(laplacian=50.0)
     assert free.to_given < 0.03
     assert np.ptp(smooth.p, axis=0).prod() < 0.8 * np.ptp(free.p, axis=0).prod()
 

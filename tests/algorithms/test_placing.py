@@ -11,7 +11,8 @@ from workbench.geometry.shapes.curvilinear import SYSTEMS
 
 @pytest.mark.parametrize("name", sorted(SYSTEMS))
 def test_three_coordinates_lead_from_the_origin_to_the_point(name):
-    system, p = SYSTEMS[name], np.array([0.4, -0.7, 0.3])
+    system = SYSTEMS[name]
+    p = np.array([0.4, -0.7, 0.3])
     c = system.of_points(p[None])[0]
     found = list(place(c, system, 3))
     assert len(found) == 10

@@ -24,7 +24,9 @@ def network_of(pool: Pool, n: int = 7, seed: int = 0) -> PointNet:
 @pytest.mark.parametrize("pool", ["max", "mean", "none"])
 def test_gradients_are_those_of_differences(pool):
     rng = np.random.default_rng(1)
-    network, clouds, of = network_of(pool), rng.normal(size=(6, 7, 3)), rng.integers(4, size=6)
+    network = network_of(pool)
+    clouds = rng.normal(size=(6, 7, 3))
+    of = rng.integers(4, size=6)
 
     def gradient() -> tuple[float, np.ndarray]:
         done = network.run(clouds)
@@ -40,7 +42,8 @@ def test_gradients_are_those_of_differences(pool):
 @pytest.mark.parametrize("pool", ["max", "mean", "none"])
 def test_training_goes_down_the_cross_entropy_of_its_batch(monkeypatch, pool):
     rng = np.random.default_rng(2)
-    clouds, of = rng.normal(size=(5, 32, 3)), np.array([0, 1, 2, 1, 0])
+    clouds = rng.normal(size=(5, 32, 3))
+    of = np.array([0, 1, 2, 1, 0])
     training = train_classifier(
         pool, lambda _: (clouds, of), {"a": clouds}, classes=3, counts=(0, 1), rng=rng
     )
@@ -65,12 +68,14 @@ def test_training_goes_down_the_cross_entropy_of_its_batch(monkeypatch, pool):
 @given(st.integers(0, 10_000), st.sampled_from(["max", "mean"]))
 def test_pooled_networks_do_not_know_the_order_of_points(seed, pool):
     rng = np.random.default_rng(seed)
-    network, clouds = network_of(pool, seed=seed), rng.normal(size=(2, 9, 3))
+    network = network_of(pool, seed=seed)
+    clouds = rng.normal(size=(2, 9, 3))
     np.testing.assert_allclose(network(clouds[:, rng.permutation(9)]), network(clouds), atol=1e-12)
 
 
 def test_critical_points_alone_say_the_same_and_without_one_it_may_differ():
-    network, cloud = network_of("max"), np.random.default_rng(3).normal(size=(1, 40, 3))
+    network = network_of("max")
+    cloud = np.random.default_rng(3).normal(size=(1, 40, 3))
     (kept,) = network.critical(cloud)
     assert len(kept) <= 8  # one for each feature at most
     np.testing.assert_array_equal(network(cloud[:, kept]), network(cloud))

@@ -53,7 +53,8 @@ def test_the_end_is_the_best_similarity_and_the_step_before_the_best_motion(
 @settings(max_examples=15, deadline=None)
 @given(SEEDS, st.booleans())
 def test_what_a_flip_costs_is_told_by_the_singular_values(seed, mirrored):
-    p, q = cloud(seed), cloud(seed) * [1, 1, -1 if mirrored else 1] + 0.1 * cloud(seed + 7)
+    p = cloud(seed)
+    q = cloud(seed) * [1, 1, -1 if mirrored else 1] + 0.1 * cloud(seed + 7)
     a, b = p - p.mean(0), q - q.mean(0)
     found = {}
     for flip in FLIPPED:

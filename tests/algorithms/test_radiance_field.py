@@ -31,7 +31,8 @@ def test_gradients_are_those_of_differences(monkeypatch):
 
 def test_a_field_is_linear_between_nodes_and_empty_beyond_the_grid():
     raw = np.random.default_rng(2).normal(size=(CELLS * CELLS, 4))
-    field, nodes = RadianceField(raw=raw, reach=REACH), np.linspace(-1, 1, CELLS)
+    field = RadianceField(raw=raw, reach=REACH)
+    nodes = np.linspace(-1, 1, CELLS)
     grid = np.stack(np.meshgrid(nodes, nodes, indexing="ij"), axis=-1)
     density, color = field.at(grid)
     np.testing.assert_allclose(density, field.density, rtol=1e-4)

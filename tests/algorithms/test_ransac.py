@@ -106,7 +106,8 @@ def test_every_model_is_found_among_outliers(name):
 
 @pytest.mark.parametrize("name", list(MODELS))
 def test_a_model_keeps_its_contract(name):
-    model, scene = MODELS[name], SCENES[name](np.random.default_rng(4))
+    model = MODELS[name]
+    scene = SCENES[name](np.random.default_rng(4))
     samples = np.stack(
         list(islice(uniform_samples(len(scene.p), model.sample_size, np.random.default_rng(0)), 20))
     )
@@ -178,7 +179,8 @@ def test_best_never_falls_and_needed_never_rises_with_it(seed, name):
     name=st.sampled_from(["line", "plane", "circle", "homography", "fundamental matrix"]),
 )
 def test_no_round_of_the_refit_lowers_the_msac_score(seed, name):
-    model, scene = MODELS[name], SCENES[name](np.random.default_rng(seed))
+    model = MODELS[name]
+    scene = SCENES[name](np.random.default_rng(seed))
     judge = Judge(scene.p, model, WITHIN[model.unit], msac_score)
     trials = [
         judge(estimate)
@@ -333,7 +335,8 @@ def test_it_comes_close_to_a_fit_that_knows_the_inliers(model, bound):
     """On 300 matches, a third of them wrong, noise 1 px, with the inlier distance that keeps 95 %
     of the others.
     """
-    ratios, flat = [], model is HOMOGRAPHY
+    ratios = []
+    flat = model is HOMOGRAPHY
     for seed in range(6):
         scene = match_scene(
             np.random.default_rng(seed), count=300, outlier_ratio=0.33, sigma=1.0, flat=flat
@@ -364,7 +367,8 @@ def test_floor_and_wall_of_a_real_room_meet_at_a_right_angle(shared_data):
     distance of its own.
     """
     p = read_cloud(shared_data / "ransac" / "capture0001.pcd")[::6]
-    rest, fits = p, []
+    rest = p
+    fits = []
     while len(fits) < 4:
         fits.append(found(run_on(rest, PLANE, 0, msac_score, 0.02)[-1]))
         rest = rest[fits[-1].distances > 0.04]

@@ -19,7 +19,8 @@ def a_motion(rng: np.random.Generator) -> np.ndarray:
 @given(seed=st.integers(0, 200))
 def test_three_exact_matches_give_the_motion(seed):
     rng = np.random.default_rng(seed)
-    T, p = a_motion(rng), rng.normal(size=(3, 3))
+    T = a_motion(rng)
+    p = rng.normal(size=(3, 3))
     pairs = np.hstack([p, apply(T, p)])
     (found,) = RIGID.solve(pairs[None])
     np.testing.assert_allclose(RIGID.distances(found, pairs), 0, atol=1e-9)
@@ -36,7 +37,10 @@ def test_three_exact_matches_give_the_motion(seed):
 @given(seed=st.integers(0, 200))
 def test_moving_both_sides_moves_the_answer(seed):
     rng = np.random.default_rng(seed)
-    T, A, B, p = a_motion(rng), a_motion(rng), a_motion(rng), rng.normal(size=(3, 3))
+    T = a_motion(rng)
+    A = a_motion(rng)
+    B = a_motion(rng)
+    p = rng.normal(size=(3, 3))
     q = apply(T, p) + 0.01 * rng.normal(size=(3, 3))
     (found,) = RIGID.solve(np.hstack([p, q])[None])
     (again,) = RIGID.solve(np.hstack([apply(A, p), apply(B, q)])[None])
@@ -57,7 +61,9 @@ def test_triangles_of_different_sides_are_dropped():
 
 def test_the_refit_is_that_of_all_inliers_and_weights_count():
     rng = np.random.default_rng(3)
-    p, q, w = rng.normal(size=(20, 3)), rng.normal(size=(20, 3)), rng.uniform(size=20)
+    p = rng.normal(size=(20, 3))
+    q = rng.normal(size=(20, 3))
+    w = rng.uniform(size=20)
     np.testing.assert_allclose(RIGID.refit(np.hstack([p, q]), w), align_rigid(q, p, w))
     several = np.stack([a_motion(rng) for _ in range(4)])
     rows = np.hstack([p, q])
@@ -69,7 +75,8 @@ def test_the_refit_is_that_of_all_inliers_and_weights_count():
 @pytest.mark.parametrize("seed", range(3))
 def test_ransac_finds_the_motion_among_three_quarters_of_outliers(seed):
     rng = np.random.default_rng(seed)
-    T, p = a_motion(rng), rng.normal(size=(120, 3))
+    T = a_motion(rng)
+    p = rng.normal(size=(120, 3))
     q = apply(T, p) + 0.01 * rng.normal(size=p.shape)
     q[:90] = apply(T, rng.normal(size=(90, 3)))
     rows = np.hstack([p, q])

@@ -110,7 +110,8 @@ def test_one_round_only_says_so():
 @settings(max_examples=25, deadline=None)
 @given(distance=st.floats(-10, 10), corner=st.floats(0.05, 5))
 def test_all_weights_are_slopes_divided_by_distances(loss, distance, corner):
-    r, h = np.array([distance]), 1e-5
+    r = np.array([distance])
+    h = 1e-5
     slope = (loss.cost(r + h, corner) - loss.cost(r - h, corner)) / (2 * h)
     np.testing.assert_allclose(loss.weights(r, corner) * r, slope, atol=1e-4)
 

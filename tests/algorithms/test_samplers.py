@@ -96,7 +96,8 @@ def test_the_termination_length_is_the_papers(seed, n, size, share):
     rows below twenty.
     """
     rng = np.random.default_rng(seed)
-    inliers, quality = rng.random(n) < share, rng.random(n)
+    inliers = rng.random(n) < share
+    quality = rng.random(n)
     by_trust = inliers[np.argsort(-quality)]
     allowed = [(0.0, 0)]
     for k in range(min(20, n), n + 1):

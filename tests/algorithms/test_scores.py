@@ -33,7 +33,8 @@ def test_counts_forget_how_near_and_msac_does_not():
 def test_mlesac_is_the_largest_likelihood_over_the_share_of_inliers():
     rng = np.random.default_rng(0)
     residuals = np.abs(np.concatenate([0.5 * rng.normal(size=70), rng.uniform(0, 20, 30)]))
-    sigma, span = 1.0 / 1.96, 20.0
+    sigma = 1.0 / 1.96
+    span = 20.0
     shares = np.linspace(0.001, 0.999, 999)[:, None]
     density = scipy.stats.norm.pdf(residuals, scale=sigma)
     best = np.log(shares * density * span + 1 - shares).sum(1).max()

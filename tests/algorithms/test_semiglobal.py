@@ -152,7 +152,8 @@ def test_smoothing_lowers_the_energy_and_the_error_of_a_noisy_step():
     truth = np.where(np.arange(40) < 20, 2, 7)[None].repeat(30, 0)
     cost = rng.integers(0, 20, (10, 30, 40)).astype(np.uint8)
     np.put_along_axis(cost, truth[None], rng.integers(0, 6, (1, 30, 40)).astype(np.uint8), 0)
-    raw, smooth = winner_takes_all(cost), winner_takes_all(total_of(cost, 6, 20))
+    raw = winner_takes_all(cost)
+    smooth = winner_takes_all(total_of(cost, 6, 20))
     assert energy(cost, smooth.astype(float), 6, 20) < 0.5 * energy(cost, raw.astype(float), 6, 20)
     assert (raw != truth).mean() > 0.3
     assert (smooth != truth).mean() < 0.02

@@ -21,10 +21,8 @@ def test_earth_movers_of_squares_ends_in_the_mean_of_partners():
     """Two targets, the same points moved by different ways: one to one, the mean is moved by the
     mean of the ways.
     """
-    start, ways = (
-        np.random.default_rng(2).normal(size=(8, 3)),
-        iter(np.tile([[0.5, 0, 0], [1.5, 0, 0]], (1000, 1))),
-    )
+    start = np.random.default_rng(2).normal(size=(8, 3))
+    ways = iter(np.tile([[0.5, 0, 0], [1.5, 0, 0]], (1000, 1)))
     *_, last = learn_set(
         start, lambda: start + next(ways), set_loss="earth mover's", counts=(0, 120)
     )

@@ -64,7 +64,8 @@ def test_the_plan_does_not_depend_on_the_start(seed, n, m, blur):
 @given(seeds, st.integers(1, 20), st.integers(1, 20), st.sampled_from([3, 30, 10_000]))
 def test_sums_are_as_right_as_it_says_and_the_cost_is_above_the_optimum(seed, n, m, max_sweeps):
     rng = np.random.default_rng(seed)
-    p_a, p_b = rng.normal(size=(n, 3)), rng.normal(size=(m, 3)) + 0.5
+    p_a = rng.normal(size=(n, 3))
+    p_b = rng.normal(size=(m, 3)) + 0.5
     cost = scipy.spatial.distance.cdist(p_a, p_b)
     found = sinkhorn(cost, 0.2, max_sweeps=max_sweeps)
     assert found.stop is (Stop.CONVERGED if found.marginal_error <= 1e-9 else Stop.MAX_SWEEPS)
@@ -79,7 +80,8 @@ def test_sums_are_as_right_as_it_says_and_the_cost_is_above_the_optimum(seed, n,
 
 def test_less_blur_is_nearer_to_the_optimum():
     rng = np.random.default_rng(0)
-    p_a, p_b = rng.normal(size=(60, 3)), rng.normal(size=(60, 3)) + 0.5
+    p_a = rng.normal(size=(60, 3))
+    p_b = rng.normal(size=(60, 3)) + 0.5
     cost = scipy.spatial.distance.cdist(p_a, p_b)
     exact = earth_movers(p_a, p_b)
     excess = [

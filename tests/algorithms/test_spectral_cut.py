@@ -56,7 +56,8 @@ def test_heat_is_kept_and_tends_to_the_exact_one(kind):
     else:
         mass = np.ones(len(ball.p)) if kind == "plain" else graphs.degrees(adjacency)
         laplacian = Laplacian(graphs.laplacian(adjacency), mass)
-    u, top = np.eye(len(ball.p))[0], laplacian.largest()
+    u = np.eye(len(ball.p))[0]
+    top = laplacian.largest()
     values, functions = laplacian.smallest(len(u))
     last = list(heat(u, laplacian, 1.0 / top, 40))[-1]
     exact = functions @ (np.exp(-40 * values / top) * (functions.T @ (laplacian.mass * u)))
@@ -68,7 +69,8 @@ def test_heat_is_kept_and_tends_to_the_exact_one(kind):
 
 def test_longer_steps_than_two_over_the_largest_eigenvalue_explode():
     laplacian = plain(KARATE)
-    u, top = np.eye(34)[0], laplacian.largest()
+    u = np.eye(34)[0]
+    top = laplacian.largest()
     sizes = {c: np.abs(list(heat(u, laplacian, c / top, 100))[-1].u).max() for c in (1.9, 2.5)}
     assert sizes[1.9] < 1
     assert sizes[2.5] > 1e6
@@ -103,8 +105,11 @@ def test_layers_are_powers_where_weights_are_the_identity():
 
 def test_training_goes_down_the_gradient():
     """The first step of Adam is the sign of the slope: beside finite differences of the loss."""
-    rng, labelled, classes = np.random.default_rng(3), np.array([0, 33, 5]), np.array([0, 1, 0])
-    dense, x = KARATE.toarray(), rng.normal(size=(34, 4))
+    rng = np.random.default_rng(3)
+    labelled = np.array([0, 33, 5])
+    classes = np.array([0, 1, 0])
+    dense = KARATE.toarray()
+    x = rng.normal(size=(34, 4))
     weights = [rng.normal(size=(4, 3)), rng.normal(size=(3, 3)), rng.normal(size=(3, 2))]
 
     def loss(changed):

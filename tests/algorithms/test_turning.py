@@ -23,7 +23,8 @@ ANGLES = np.linspace(-180.0, 180.0, 7201)
 @pytest.fixture(scope="module")
 def lines():
     outline = rabbit_outline()
-    p, q = along(outline, 60), along(outline, 50, 0.4)
+    p = along(outline, 60)
+    q = along(outline, 50, 0.4)
     return p - p.mean(axis=0), q - q.mean(axis=0), normals_along(p)
 
 

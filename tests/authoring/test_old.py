@@ -153,7 +153,8 @@ def test_an_old_handout_is_graded_by_its_weights(tmp_path, service):
 
 @pytest.mark.parametrize("name", ["match", "invert_rigid"])
 def test_old_questions_are_graded(tmp_path, name):
-    question, came = OLD / "handouts" / "prairielearn" / name, tmp_path / "came"
+    question = OLD / "handouts" / "prairielearn" / name
+    came = tmp_path / "came"
     starter = (question / f"my_{name}.py").read_text(encoding="utf-8")
     sample = (OLD / "handouts" / "folder" / "teacher" / "full" / f"my_{name}.py").read_text(
         encoding="utf-8"

@@ -66,7 +66,8 @@ def test_a_file_opens_a_stage_that_shows_it(tmp_path, name, field):
 
 @pytest.mark.parametrize(("name", "field"), WITH_FILES)
 def test_what_is_wrong_with_a_file_names_knobs_as_the_page_does(tmp_path, name, field):
-    lesson, path = course()[name], made_files(tmp_path)["bad.zzz"]
+    lesson = course()[name]
+    path = made_files(tmp_path)["bad.zzz"]
     params = showing(replace(lesson.params(), **{field: path}), [field])
     timeline = Timeline(lesson, params)
     timeline.extend()
@@ -81,7 +82,8 @@ def test_what_is_wrong_with_a_file_names_knobs_as_the_page_does(tmp_path, name, 
 
 
 def test_a_pair_of_pictures_can_be_handed_over_one_after_the_other(tmp_path):
-    files, lesson = made_files(tmp_path), course()["disparity"]
+    files = made_files(tmp_path)
+    lesson = course()["disparity"]
     session = Session(lesson)
     session.change(left=files["photo.png"])
     session.compute(0.0)

@@ -30,7 +30,8 @@ def edited(tmp_path) -> Edited:
 
 def save(edited: Edited, file: str, old: str, new: str) -> None:
     path = edited.path / file
-    text, stamp = path.read_text(encoding="utf-8"), path.stat()
+    text = path.read_text(encoding="utf-8")
+    stamp = path.stat()
     assert old in text
     path.write_text(text.replace(old, new), encoding="utf-8")
     os.utime(

@@ -125,7 +125,8 @@ def measured(name: str) -> Ran:
     source = (FOLDER / f"bench_{name}.py").read_text(encoding="utf-8")
     docstring = ast.get_docstring(ast.parse(source)) or ""
     about = " ".join(docstring.partition("\n\n")[0].split())
-    busy, began = load(), time.monotonic()
+    busy = load()
+    began = time.monotonic()
     try:
         done = subprocess.run(
             [sys.executable, "-m", module],

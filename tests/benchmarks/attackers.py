@@ -19,11 +19,9 @@ from tests.fake_page import FakePage
 
 async def attack(address: str, seconds: float) -> None:
     """Attack a server for so long."""
-    end, began, sent = (
-        time.perf_counter() + seconds,
-        time.perf_counter(),
-        {"wishes": 0, "garbage": 0},
-    )
+    end = time.perf_counter() + seconds
+    began = time.perf_counter()
+    sent = {"wishes": 0, "garbage": 0}
     one = await FakePage(address, "?lesson=transforms").open()
     quiet = [await one.socket(f"live?token={i:024x}") for i in range(300)]
 

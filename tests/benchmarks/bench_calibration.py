@@ -31,7 +31,8 @@ def main() -> None:
     """Print a line per camera."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--rounds", type=int, default=11)
-    rounds, cv2 = parser.parse_args().rounds, peer("cv2")
+    rounds = parser.parse_args().rounds
+    cv2 = peer("cv2")
     print(
         f"{'camera':12}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>8}{'at most':>9}{'rms':>11}{'K':>11}{'±':>11}"  # noqa: E501
     )
@@ -41,7 +42,8 @@ def main() -> None:
             *_, last = calibrate(p, uv, boards.SIZE)
             return last
 
-        found, spent = ours().adjustment, []
+        found = ours().adjustment
+        spent = []
         assert found is not None
         if cv2 is None:
             print(f"{name:12}{min(timed(ours) for _ in range(rounds)):9.1f}")
@@ -55,7 +57,8 @@ def main() -> None:
         other = theirs()
         for _ in range(rounds):
             spent.append((timed(ours), timed(theirs)))
-        least, ratio = np.min(spent, axis=0), float(np.median([a / b for a, b in spent]))
+        least = np.min(spent, axis=0)
+        ratio = float(np.median([a / b for a, b in spent]))
         apart = (
             abs(np.sqrt(found.cost / (uv.size / 2)) - other[0]),
             np.abs(found.K - other[1]).max(),

@@ -291,7 +291,8 @@ async def costs(server: Served, given: argparse.Namespace) -> None:
     for name in given.lessons:
         page, _ = await arrived(server, f"?lesson={name}")
         await page.until(lambda page: page.run["finished"], 300)
-        rng, known = np.random.default_rng(0), min(page.run["known"], 20)
+        rng = np.random.default_rng(0)
+        known = min(page.run["known"], 20)
         began = server.spent()[1]
         for k in range(40):
             await page.seek((k + 1) % known)
@@ -324,7 +325,8 @@ def afterwards(server: Served, at_work: float) -> tuple[int, float]:
     """Return threads and MB of the server when all have gone, and it has let go of what it held for
     them.
     """
-    held, until = server.held(), time.monotonic() + 3 * EMPTY
+    held = server.held()
+    until = time.monotonic() + 3 * EMPTY
     while time.monotonic() < until and not (held[0] <= server.threads and held[1] < 0.9 * at_work):
         time.sleep(1.0)
         held = server.held()

@@ -123,8 +123,10 @@ def marches(x: np.ndarray, fmm: ModuleType | None) -> dict[str, Contender]:
     """Return who marches from a disc of radius 0.1 about a corner; the distance of the far corner
     must be near.
     """
-    true, h = np.hypot(*np.meshgrid(x, x, indexing="ij")), float(x[1])
-    start, free = np.where(true <= 0.1, true, np.inf), np.ones((SIDE, SIDE), bool)
+    true = np.hypot(*np.meshgrid(x, x, indexing="ij"))
+    h = float(x[1])
+    start = np.where(true <= 0.1, true, np.inf)
+    free = np.ones((SIDE, SIDE), bool)
 
     def ours() -> float:
         *_, last = march(start, free, h, band=0.1)
@@ -220,7 +222,8 @@ def exact(igl: ModuleType | None) -> dict[str, Contender]:
 
     contenders: dict[str, Contender] = {"ours, 4 points on each edge": ours}
     if igl is not None:
-        none, every = np.array([], dtype=np.int64), np.arange(len(ball.p))
+        none = np.array([], dtype=np.int64)
+        every = np.arange(len(ball.p))
         faces = ball.faces.astype(np.int64)
         contenders["igl, exact"] = lambda: float(
             np.sum(igl.exact_geodesic(ball.p, faces, np.array([0]), none, every, none))
@@ -234,7 +237,8 @@ def whitened() -> dict[str, Contender]:
     a, b = rng.normal(size=(2, 2000, 10))
     A = rng.normal(size=(10, 10))
     C = A @ A.T + np.eye(10)
-    cdist, inverse = scipy.spatial.distance.cdist, np.linalg.inv(C)
+    cdist = scipy.spatial.distance.cdist
+    inverse = np.linalg.inv(C)
 
     def ours() -> float:
         W = metrics.whitening(C)

@@ -45,7 +45,8 @@ from workbench.geometry.two_views.triangulation import (
     triangulate,
 )
 
-MATCHES, SIGMA = 1365, 0.5
+MATCHES = 1365
+SIGMA = 0.5
 cv2, poselib = optional("cv2"), optional("poselib")
 
 
@@ -102,7 +103,8 @@ def main() -> None:
     pair = a_pair(1, MATCHES, SIGMA)
     K, T, x, y = pair.K_first, pair.T_second_first, pair.uv_first, pair.uv_second
     L = pair.K_second
-    P, Q = camera_matrix(K, np.eye(4)), camera_matrix(L, T)
+    P = camera_matrix(K, np.eye(4))
+    Q = camera_matrix(L, T)
     xn, yn = normalize(x, K), normalize(y, L)
     print(f"{'task (ms), 1,365 matches':<44} {'ours':>8}   {'peers':<44} {'ratio':>6}   floor")
     compared(
@@ -163,7 +165,8 @@ def main() -> None:
         lambda: refine_fundamental(fit_fundamental(x, y), x, y),
         {},
     )
-    none, t = np.zeros((5, 1)), T[:3, 3:].copy()
+    none = np.zeros((5, 1))
+    t = T[:3, 3:].copy()
     rectified = (
         {"cv2": lambda: cv2.stereoRectify(K, none, L, none, (1024, 683), T[:3, :3].copy(), t)}
         if cv2

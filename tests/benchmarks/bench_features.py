@@ -47,7 +47,8 @@ from workbench.geometry.motions import apply, exp_so3, inverse, motion
 from workbench.geometry.points.normals import point_normals
 
 SCANS = Path(__file__).resolve().parents[3] / "shared" / "data" / "icp"
-RADIUS, STARTS = 0.15, 20
+RADIUS = 0.15
+STARTS = 20
 open3d, cv2 = optional("open3d"), optional("cv2")
 
 
@@ -108,9 +109,11 @@ def bare_filters(image: np.ndarray) -> None:
 
 def described(name: str, rounds: int, p: np.ndarray, radius: float) -> None:
     """Compare descriptors, and say how near they are."""
-    n, peers = point_normals(p), {}
+    n = point_normals(p)
+    peers = {}
     if open3d:
-        cloud, search = cloud_of(p, n), open3d.geometry
+        cloud = cloud_of(p, n)
+        search = open3d.geometry
 
         def theirs(how: Any) -> np.ndarray:
             return np.asarray(open3d.pipelines.registration.compute_fpfh_feature(cloud, how).data).T
@@ -146,8 +149,10 @@ def keypoints(rounds: int, p: np.ndarray, radius: float) -> None:
 
 def from_any_start() -> None:
     """Register the bunny scans from turned and moved starts, as the lesson does own scans."""
-    p, files = read_cloud(SCANS / "bun045.ply"), (SCANS / "bun000.ply", SCANS / "bun045.ply")
-    T_truth, rows = read_pose(SCANS / "bun.conf", *files), []
+    p = read_cloud(SCANS / "bun045.ply")
+    files = (SCANS / "bun000.ply", SCANS / "bun045.ply")
+    T_truth = read_pose(SCANS / "bun.conf", *files)
+    rows = []
     with tempfile.TemporaryDirectory() as folder:
         source, truth = Path(folder) / "source.npz", Path(folder) / "truth.txt"
         for seed in range(STARTS):

@@ -272,7 +272,8 @@ def profiled_run(
 
         return call
 
-    match, iterations = timed("match", matcher(p_target, p_source)), 0
+    match = timed("match", matcher(p_target, p_source))
+    iterations = 0
     start = time.process_time()
     for state in icp(
         p_target,

@@ -36,7 +36,9 @@ from workbench.algorithms.learning.perceptron import (
 )
 from workbench.geometry.motions.rotation_outputs import IN_SPACE, random_rotations
 
-SIZES, BATCH, UPDATES = (9, 64, 64, 6), 64, 200
+SIZES = (9, 64, 64, 6)
+BATCH = 64
+UPDATES = 200
 Gradient = Callable[[np.ndarray, np.ndarray], tuple[float, np.ndarray]]
 
 
@@ -51,7 +53,9 @@ def main() -> None:
 
 def by_hand(values: np.ndarray, R: np.ndarray) -> tuple[float, np.ndarray]:
     """Return the loss and its gradient, as `regress` computes them."""
-    six, layers, slopes = IN_SPACE["6D"], layers_of(values, SIZES), np.empty_like(values)
+    six = IN_SPACE["6D"]
+    layers = layers_of(values, SIZES)
+    slopes = np.empty_like(values)
     outputs = forward(layers, R.reshape(-1, 9), "relu")
     off = six.decode(outputs[-1]) - R
     backward(
@@ -68,7 +72,8 @@ def loss_in(xp: Any) -> Callable[[Any, Any], Any]:
     """Return the same loss in the words of another numpy, which differentiates it by itself."""
 
     def loss(values: Any, R: Any) -> Any:
-        h, layers = R.reshape(-1, 9), layers_of(values, SIZES)
+        h = R.reshape(-1, 9)
+        layers = layers_of(values, SIZES)
         for k, (weights, bias) in enumerate(layers):
             h = h @ weights + bias
             h = xp.maximum(h, 0) if k < len(layers) - 1 else h
@@ -99,8 +104,10 @@ def contenders() -> dict[str, Gradient]:
 def updates(rounds: int) -> None:
     """Compare one update, Adam included."""
     rng = np.random.default_rng(0)
-    first, R = new_values(SIZES, rng) + 0.01, random_rotations(BATCH, 3, np.pi, rng=rng)[0]
-    ways, least = contenders(), dict[str, float]()
+    first = new_values(SIZES, rng) + 0.01
+    R = random_rotations(BATCH, 3, np.pi, rng=rng)[0]
+    ways = contenders()
+    least = dict[str, float]()
     expected = by_hand(first, R)[1]
     print(
         f"one update, milliseconds\n{'':16}{'least':>8}{'ratio':>8}{'first call':>12}   gradient"
@@ -128,7 +135,8 @@ def tasks(rounds: int) -> None:
     """Time every task, at its defaults, from the first state to the last."""
     print(f"\nevery task, seconds\n{'':16}{'updates':>8}{'least':>8}")
     for name in ("short", "rotation", "smeared", "circle", "smooth", "pooled", "many"):
-        params, states = lesson.preset(name).params, list[Any]()
+        params = lesson.preset(name).params
+        states = list[Any]()
         took = min(
             timed(lambda params=params, states=states: states.extend(run(params)))
             for _ in range(min(rounds, 2))

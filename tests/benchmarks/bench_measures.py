@@ -39,7 +39,8 @@ def peer(name: str) -> Any:
 
 def least(task: Task, repeats: int) -> tuple[float, float]:
     """Return the least processor time of some runs in ms, and the value as one number."""
-    times, value = [], 0.0
+    times = []
+    value = 0.0
     for _ in range(repeats):
         start = time.process_time()
         value = task()
@@ -96,7 +97,8 @@ def sizes(p: np.ndarray, faces: np.ndarray, igl: Any, o3d: Any) -> None:
 
 def samples(p: np.ndarray, faces: np.ndarray, n: int, o3d: Any) -> None:
     """Compare points drawn on one mesh."""
-    rng, mesh = np.random.default_rng(0), trimesh.Trimesh(p, faces, process=False)
+    rng = np.random.default_rng(0)
+    mesh = trimesh.Trimesh(p, faces, process=False)
     peers: dict[str, Task] = {"trimesh": lambda: trimesh.sample.sample_surface(mesh, n, seed=0)[0]}
     if o3d:
         theirs = o3d_mesh(o3d, p, faces)
@@ -109,7 +111,8 @@ def insides(n: int, igl: Any) -> None:
     """Compare inside tests on the rabbit, and its voxels."""
     p, faces = rabbit_mesh(0.035)
     q = np.random.default_rng(1).uniform(p.min(axis=0), p.max(axis=0), (n, 3))
-    mesh, few = trimesh.Trimesh(p, faces, process=False), q[: n // 10]
+    mesh = trimesh.Trimesh(p, faces, process=False)
+    few = q[: n // 10]
     peers: dict[str, Task] = {}
     if igl:
         peers["igl fast winding"] = lambda: np.asarray(igl.fast_winding_number(p, faces, q)) > 0.5

@@ -33,7 +33,8 @@ from workbench.geometry.cameras.three_points import p3p, unit_rays
 from workbench.geometry.motions import exp_so3, motion
 from workbench.geometry.motions.alignment import degrees_between
 
-F, PIXEL = 800.0, 1 / 800
+F = 800.0
+PIXEL = 1 / 800
 K = intrinsics(F, 320.0, 240.0)
 Contender = Callable[[], np.ndarray | None]
 
@@ -59,7 +60,8 @@ def main() -> None:
 def three(rounds: int, cv2, poselib) -> None:
     """Compare P3P on 1,000 triples."""
     _, p, xy = triples(1000)
-    rays, pairs = [list(one) for one in unit_rays(xy)], list(zip(p, xy, strict=True))
+    rays = [list(one) for one in unit_rays(xy)]
+    pairs = list(zip(p, xy, strict=True))
     ways: dict[str, Contender] = {
         "ours, side by side": lambda: np.array(len(p3p(p, xy)[0])),
         "ours, one by one": lambda: np.array(
@@ -187,7 +189,8 @@ def among_outliers(rounds: int, outliers: float, cv2, poselib) -> None:
 
 def by_ransac(p: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Return the lesson's way, run to its last step."""
-    rows, model = np.column_stack([p, uv]), camera_model(K)
+    rows = np.column_stack([p, uv])
+    model = camera_model(K)
     samples = uniform_samples(len(rows), 3, np.random.default_rng(0))
     *_, last = ransac(rows, model, samples, Judge(rows, model, 3.0), max_iterations=500)
     return last.best.estimate if last.best else np.eye(4)
@@ -215,7 +218,8 @@ def compare(
     """Run all contenders, taking turns, and print their times per problem, ours over theirs, and
     what came out.
     """
-    least, found = dict.fromkeys(ways, np.inf), {}
+    least = dict.fromkeys(ways, np.inf)
+    found = {}
     for _ in range(rounds):
         for name, way in ways.items():
             started = time.process_time()

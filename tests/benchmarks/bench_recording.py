@@ -67,7 +67,9 @@ def main() -> None:
         )  # imports what is imported once
         print(f"{'run':<32} {'bare':>8} {'recorded':>9} {'ratio':>6} {'size':>9} {'steps':>6}")
         for task in tasks():
-            bare, recorded, steps = [], [], 0
+            bare = []
+            recorded = []
+            steps = 0
             for _ in range(ROUNDS):
                 bare.append(
                     seconds(lambda task=task: Timeline(task.lesson, task.params).complete())

@@ -138,7 +138,8 @@ def timed(task: Task) -> tuple[float, float, float]:
     """Return the wall time of one run and the processor time of its busiest thread in ms, and the
     value.
     """
-    wall, threads = time.perf_counter(), thread_times()
+    wall = time.perf_counter()
+    threads = thread_times()
     value = task()
     after = thread_times()
     busiest = max(ns - threads.get(thread, 0) for thread, ns in after.items())
@@ -168,7 +169,9 @@ def sinkhorn_peers(cost: np.ndarray, regularisation: float) -> dict[str, Task]:
 
 def least_times(task: Task, repeats: int) -> tuple[float, float, float]:
     """Return the least wall and processor times of a few runs in ms, and the value."""
-    walls, cpus, value = [], [], float("nan")
+    walls = []
+    cpus = []
+    value = float("nan")
     for _ in range(repeats):
         wall, cpu = time.perf_counter(), time.process_time()
         value = task()
@@ -218,7 +221,8 @@ def main() -> None:
     parser.add_argument("--large", action="store_true", help="5000 points as well; minutes")
     parser.add_argument("--only", choices=("emd",), help="earth mover's alone")
     asked = parser.parse_args()
-    large, rng = asked.large, np.random.default_rng(11)
+    large = asked.large
+    rng = np.random.default_rng(11)
     compare_emd((200, 500, 1000, 2000, 5000) if large else (200, 500, 1000, 2000))
     if asked.only:
         return

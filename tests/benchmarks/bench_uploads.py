@@ -38,12 +38,11 @@ FILES: dict[str, Callable[[], bytes]] = {
 
 async def handed(page: FakePage, field: str, name: str, content: bytes) -> None:
     """Hand a file to a field of a page, and wait for what comes of it."""
-    before, page.step = page.run["run"], {}
+    before = page.run["run"]
+    page.step = {}
     async with httpx.AsyncClient(timeout=120) as client:
-        address, origin = (
-            f"{page.address}files/{page.token}/{field}",
-            {"Origin": page.headers["Origin"]},
-        )
+        address = f"{page.address}files/{page.token}/{field}"
+        origin = {"Origin": page.headers["Origin"]}
         answer = await client.post(address, params={"name": name}, content=content, headers=origin)
         assert answer.status_code == 204, answer.text
 
@@ -66,7 +65,9 @@ async def watched(server: Served, given: argparse.Namespace) -> None:
             page = (await arrived(server, f"?lesson={name}"))[0]
             await page.until(lambda page: page.run["finished"], 300)
             for field in fields:
-                waits, grown, done = Waits(), [server.held()[1]], asyncio.Event()
+                waits = Waits()
+                grown = [server.held()[1]]
+                done = asyncio.Event()
 
                 async def looking(grown: list[float] = grown, done: asyncio.Event = done) -> None:
                     while not done.is_set():

@@ -226,7 +226,8 @@ def _imported(test: Path) -> frozenset[tuple[str, str]]:
 def _imports(test: Path, path: Path, root: Path) -> bool:
     """Return whether a test imports a module, or one of its names from the package around it."""
     parts = path.relative_to(root).with_suffix("").parts
-    module, package = ".".join(parts), ".".join(parts[:-1])
+    module = ".".join(parts)
+    package = ".".join(parts[:-1])
     return any(
         module in {source, f"{source}.{name}"}
         or (source == package and len(parts) > 3 and name in _defined(path))

@@ -157,10 +157,8 @@ def report(results: dict[str, dict]) -> str:
     same = equivalents()
     counted = {name: one for name, one in results.items() if name not in same}
     survived = [one for one in counted.values() if one["fate"] == "survived"]
-    operators, ends = (
-        Counter(one["operator"] for one in counted.values()),
-        Counter(one["operator"] for one in survived),
-    )
+    operators = Counter(one["operator"] for one in counted.values())
+    ends = Counter(one["operator"] for one in survived)
     killed = len(counted) - len(survived)
     lines = [f"{killed} of {len(counted)} killed ({100 * killed / max(len(counted), 1):.0f} %)"]
     lines += [f"{len(results) - len(counted)} equivalent, not counted"]
@@ -203,7 +201,9 @@ class House:
         }
         for name in IMPORTED:
             __import__(name)
-        self.folder, self.runs, self.known = folder, 0, dict[str, list[dict]]()
+        self.folder = folder
+        self.runs = 0
+        self.known = dict[str, list[dict]]()
         self.tracing = Tracing(self.root)
 
     def tested(self, mutant: Mutant) -> dict:

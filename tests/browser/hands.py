@@ -56,7 +56,8 @@ def on_screen(home: Home, p_world: np.ndarray) -> np.ndarray:
     """Return where points of the scene (..., 3) are in the window, by the camera of viser's
     client.
     """
-    camera, box = home.ask("labels.camera"), home.find("#scene").bounding_box()
+    camera = home.ask("labels.camera")
+    box = home.find("#scene").bounding_box()
     w, x, y, z = camera["wxyz"]
     xyz = (p_world - np.array(camera["position"])) @ Rotation.from_quat(
         [x, y, z, w]

@@ -120,7 +120,8 @@ class Browser:
         end.
         """
         lesson, address = HOMES[kind](lesson, self._server, folder)
-        page, errors = self._context.new_page(), []
+        page = self._context.new_page()
+        errors = []
         page.add_init_script(SELDOM)
         if kind == "notebook":  # what it draws is looked at in JupyterLab
             page.add_init_script("secondsBetweenPictures = 3600")

@@ -178,7 +178,8 @@ MESSAGES = """([i, j, how]) => {
 
 @pytest.mark.parametrize("by", [0, 1])
 def test_what_only_moves_is_sent_as_poses_and_what_stays_is_not_sent(fed, by):
-    before, after = len(ALL), len(ALL) + 1
+    before = len(ALL)
+    after = len(ALL) + 1
     said = fed(MESSAGES, [before, after, by])
     assert {type_ for type_, name in said if name == "/scene/cloud"} == {
         "SetOrientationMessage",

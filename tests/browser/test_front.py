@@ -76,7 +76,8 @@ def test_orange_is_laid_on_blue_by_mouse_and_the_matrix_becomes_ones_and_zeros(f
 def test_keys_move_and_turn_it_and_home_starts_again(front):
     page = front().page
     toy = page.locator("#toy svg")
-    before, start = page.evaluate("[toy.x, toy.y, toy.turn]"), numbers(page)
+    before = page.evaluate("[toy.x, toy.y, toy.turn]")
+    start = numbers(page)
     toy.focus()
     for key in ("ArrowLeft", "ArrowUp", ","):
         page.keyboard.press(key)
@@ -188,7 +189,8 @@ def test_the_map_shows_all_that_a_lesson_builds_on(front):
     page = front(width=1440, height=900).page
     page.locator(".map a[data-name=disparity]").focus()
     lit = page.locator(".map a.on").evaluate_all("boxes => boxes.map((box) => box.dataset.name)")
-    needed, waiting = set(), ["disparity"]
+    needed = set()
+    waiting = ["disparity"]
     while waiting:
         needed.add(name := waiting.pop())
         waiting += course()[name].needs
@@ -202,7 +204,8 @@ def test_the_map_shows_all_that_a_lesson_builds_on(front):
 
 def test_it_plays_without_a_server_and_keeps_its_theme(chromium, tmp_path):
     site.publish(tmp_path, [TINY])
-    page, errors = chromium.new_page(color_scheme="dark"), []
+    page = chromium.new_page(color_scheme="dark")
+    errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on(
         "requestfailed",

@@ -114,7 +114,8 @@ def test_what_is_faded_is_mixed_with_the_backdrop_of_the_page(fed, opacity, dark
 
 
 def test_only_what_is_faded_is_sent_again_where_the_light_changes(fed):
-    faded, full = Points(np.eye(3), "source", opacity=0.5), Points(np.eye(3), "source")
+    faded = Points(np.eye(3), "source", opacity=0.5)
+    full = Points(np.eye(3), "source")
     shown(fed, {"faded": faded, "full": full, "mesh": Mesh(np.eye(3), FACE, HEIGHT, opacity=0.5)})
     said = fed(
         "() => { client.said = []; feed.theme(true); return client.said.map(({ type, name }) =>"
@@ -177,7 +178,8 @@ ROOM: Scene = {
 
 
 def test_what_is_read_of_stands_out_and_the_rest_steps_back(fed):
-    plain, seen = shown(fed, ROOM), shown(fed, ROOM, path="source")
+    plain = shown(fed, ROOM)
+    seen = shown(fed, ROOM, path="source")
     assert seen.keys() == plain.keys()
     points, normals, faint = (
         seen[f"/scene/source·{name}"] for name in ("points", "normals", "faint")

@@ -263,7 +263,8 @@ def is_refused(home: Home) -> bool:
 def links_run_things(home: Home) -> None:
     moment = home.find("a.run[data-run=default][data-step], a.run[data-run=''][data-step]").first
     if moment.count():
-        run, step = here(home), int(moment.get_attribute("data-step"))
+        run = here(home)
+        step = int(moment.get_attribute("data-step"))
         moment.press("Enter")
         home.says(run[opens_at(run, step)].caption.text, opens_at(run, step))
         home.find("a.run[data-step][aria-current=true]").first.wait_for()
@@ -295,9 +296,11 @@ def a_question_is_answered_wrong_and_right(home: Home) -> None:
     found = answer(catalog()[home.lesson.name], question, None, home.server.runs.timelines)
     form = home.find(f"form[data-question='{question.name}']")
     if question.choices:
-        wrong, right = next(one for one in question.choices if one != found.truth), found.truth
+        wrong = next(one for one in question.choices if one != found.truth)
+        right = found.truth
     else:
-        wrong, right = f"{found.value + 2 * question.tolerance + 1:.9g}", f"{found.value:.9g}"
+        wrong = f"{found.value + 2 * question.tolerance + 1:.9g}"
+        right = f"{found.value:.9g}"
     for given, said in ((wrong, "You said "), (right, "Right: ")):
         if question.choices:
             form.get_by_label(given, exact=True).press("Space")
@@ -312,7 +315,8 @@ def a_question_is_answered_wrong_and_right(home: Home) -> None:
 def a_sweep_leads_to_another_run(home: Home) -> None:
     if not home.lesson.sweeps:
         return
-    lesson, knob = catalog()[home.lesson.name], home.lesson.sweeps[0].knob
+    lesson = catalog()[home.lesson.name]
+    knob = home.lesson.sweeps[0].knob
     usual = getattr(lesson.params(), knob)
     values = {text_of(value): value for value in (*home.lesson.sweeps[0].values, usual)}
     home.press("s")

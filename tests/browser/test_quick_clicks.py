@@ -27,10 +27,8 @@ def alone(lesson: Any) -> list[Question]:
 @pytest.mark.parametrize("name", ["epipolar", "fitting"])  # told lessons ask in their story
 def test_the_last_of_quick_clicks_wins_and_a_question_s_run_follows(visit, name):
     lesson = catalog()[name]
-    last, question = (
-        lesson.presets[len(lesson.presets) // 2],
-        (alone(lesson) or lesson.questions[-1:])[0],
-    )
+    last = lesson.presets[len(lesson.presets) // 2]
+    question = (alone(lesson) or lesson.questions[-1:])[0]
     clicks = [preset.name for preset in lesson.presets] * ROUNDS + [last.name]
     me = visit(f"?lesson={name}", scene=True)
     said: list[str] = []

@@ -32,10 +32,8 @@ eighth it tries no more.
 def test_a_page_goes_on_at_its_step_when_its_server_was_killed_and_is_there_again(chromium):
     params = LESSON.preset("far").params
     caption = Timeline(LESSON, params).complete()[3].caption.text
-    page, errors = (
-        chromium.new_page(viewport={"width": 1100, "height": 640}, reduced_motion="reduce"),
-        [],
-    )
+    page = chromium.new_page(viewport={"width": 1100, "height": 640}, reduced_motion="reduce")
+    errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on(
         "console", lambda message: errors.append(message.text) if message.type == "error" else None

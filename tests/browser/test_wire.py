@@ -63,7 +63,8 @@ def coded(content: bytes) -> str:
 
 
 def test_each_step_is_read_as_it_was_sent(fed, timeline):
-    wire, reader = PageWire(Maker()), Reader()
+    wire = PageWire(Maker())
+    reader = Reader()
     fed("() => { window.own = new Wire(); }")
     for step in timeline.known():
         message = wire.step({"k": step.state.k}, step.scene, VIEW)
@@ -106,10 +107,8 @@ def test_equal_kinds_are_one_object_and_equal_arrays_one_array(fed, timeline):
 
 
 def test_who_is_told_to_forget_forgets(fed, timeline):
-    wire, head = (
-        PageWire(Maker()),
-        "(content) => { read(own, content); return [own.kinds.size, own.arrays.size]; }",
-    )
+    wire = PageWire(Maker())
+    head = "(content) => { read(own, content); return [own.kinds.size, own.arrays.size]; }"
     fed("() => { window.own = new Wire(); }")
     sizes = [fed(head, coded(wire.step({}, step.scene, VIEW))) for step in timeline.known()]
     wire.forget()

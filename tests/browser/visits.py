@@ -40,7 +40,8 @@ def at_rest(page: Any) -> np.ndarray:
         "width": view["width"] - 20,
         "height": view["height"] - 90,
     }
-    before, alike = b"", 0
+    before = b""
+    alike = 0
     for _ in range(MOST):
         page.evaluate(
             "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"

@@ -57,7 +57,8 @@ def test_every_board_is_found_with_its_first_corner_first(tilt, distance):
 
 
 def test_a_large_picture_and_one_of_few_pixels():
-    T, p = poses(1, 20)[0], boards.board_points()
+    T = poses(1, 20)[0]
+    p = boards.board_points()
     uv = project(p, T, boards.K_TRUE, boards.LENS_TRUE)
     large = taken(T, scale=4)
     assert large.shape == (1920, 2560)

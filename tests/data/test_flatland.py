@@ -7,14 +7,16 @@ from lessons.learning import flatland
 
 
 def test_a_photograph_shows_each_disc_that_a_ray_hits_first_and_white_where_it_hits_none():
-    angle, pixels = 0.7, 61
+    angle = 0.7
+    pixels = 61
     p, d = flatland.rays_of(angle, pixels)
     nearest = np.full(pixels, np.inf)
     hit = np.full(pixels, -1)
     clear = np.ones(pixels, bool)  # of borders
     for k, (x, y, radius) in enumerate(flatland.DISCS):
         v = np.array([x, y]) - p
-        along, miss = (v * d).sum(axis=1), np.abs(v[:, 0] * d[:, 1] - v[:, 1] * d[:, 0])
+        along = (v * d).sum(axis=1)
+        miss = np.abs(v[:, 0] * d[:, 1] - v[:, 1] * d[:, 0])
         clear &= np.abs(miss - radius) > 0.03
         enters = np.where(
             miss < radius, along - np.sqrt(np.maximum(radius**2 - miss**2, 0)), np.inf

@@ -70,7 +70,8 @@ def test_a_motion_goes_along_with_its_points(seed, up: Up, T, floor):
 @given(seed=SEEDS, up=UPS, floor=st.floats(-2.0, 2.0))
 def test_what_stands_has_its_lowest_point_on_the_floor(seed, up: Up, floor):
     p = cloud(seed)
-    free, stands = frame(p, 1.2, up=up), frame(p, 1.2, up=up).standing(p, floor)
+    free = frame(p, 1.2, up=up)
+    stands = frame(p, 1.2, up=up).standing(p, floor)
     assert stands.shown(p)[:, 2].min() == pytest.approx(floor, abs=1e-9)
     np.testing.assert_allclose((stands.shown(p) - free.shown(p))[:, :2], 0.0, atol=1e-12)
 

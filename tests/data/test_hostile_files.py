@@ -139,7 +139,8 @@ def test_a_header_that_promises_more_than_there_is_takes_no_memory(tmp_path):
 
 
 def damaged(npz: bytes, how: str) -> bytes:
-    changed, central = bytearray(npz), npz.index(b"PK\x01\x02")
+    changed = bytearray(npz)
+    central = npz.index(b"PK\x01\x02")
     if how == "data":
         changed[120:160] = b"\xff" * 40
     elif how == "compression":

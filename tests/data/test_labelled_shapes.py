@@ -25,7 +25,8 @@ def test_points_lie_on_their_surfaces(monkeypatch):
     monkeypatch.setattr(labelled_shapes, "NOISE", 0.0)
     monkeypatch.setattr(labelled_shapes, "STRETCH", (1.0, 1.0))
     clouds = labelled_clouds(EVERY, 40, "about z", np.random.default_rng(1))
-    r, z = np.hypot(clouds[..., 0], clouds[..., 1]), clouds[..., 2]
+    r = np.hypot(clouds[..., 0], clouds[..., 1])
+    z = clouds[..., 2]
     sphere, box, cylinder, cone, torus = ((r[k == EVERY], z[k == EVERY]) for k in range(5))
     assert np.hypot(*sphere) == pytest.approx(1)
     assert box[0].max() <= 0.8 * np.sqrt(2) + 1e-9

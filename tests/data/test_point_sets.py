@@ -47,7 +47,8 @@ def test_surfaces_are_where_they_should_be():
 
 
 def test_what_is_done_to_a_cloud_is_what_it_says():
-    p, rng = spread("ring", 80), np.random.default_rng(0)
+    p = spread("ring", 80)
+    rng = np.random.default_rng(0)
     assert earth_movers(grown(p, 0.05), p) == pytest.approx(0.05)
     assert chamfer(grown(p, 0.05), p) == pytest.approx(0.005)
     assert earth_movers(bumped(p, 0.16), p) == pytest.approx(0.02)
@@ -75,7 +76,8 @@ def test_blobs_lie_inside_their_radius():
 
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_small_clouds_survive_everything(count):
-    p, rng = spread("spiral", count), np.random.default_rng(0)
+    p = spread("spiral", count)
+    rng = np.random.default_rng(0)
     for changed in (
         grown(p, 1),
         bumped(p, 1),

@@ -18,7 +18,8 @@ def test_the_rabbit_lies_on_one_smooth_surface_with_few_holes():
 
 
 def test_the_gradient_is_that_of_the_distance():
-    p, h = rabbit(50, np.random.default_rng(1)) + 0.02, 1e-6
+    p = rabbit(50, np.random.default_rng(1)) + 0.02
+    h = 1e-6
     _, gradient = rabbit_field(p)
     for axis in range(3):
         step = h * np.eye(3)[axis]

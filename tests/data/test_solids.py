@@ -39,7 +39,8 @@ def test_no_mirror_and_no_turn_maps_the_house_to_itself():
     ("shape", "normal", "offset"), [("box", [1.0, 0, 0], 0.0), ("L block", [0, 0, 1.0], 0.25)]
 )
 def test_the_others_are_their_own_mirror_image(shape, normal, offset):
-    p, n = solid(shape).p, np.array(normal)
+    p = solid(shape).p
+    n = np.array(normal)
     mirrored = p - 2.0 * (p @ n - offset)[:, None] * n
     assert {tuple(row) for row in mirrored.round(9) + 0.0} == {
         tuple(row) for row in p.round(9) + 0.0

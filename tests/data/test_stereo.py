@@ -96,7 +96,8 @@ def test_a_plane_is_linear_in_disparity_and_boards_are_where_they_say():
 
 def test_the_ball_bulges_as_a_sphere_does():
     depth = depth_from_disparity(made("spheres").disparity, CAMERA.f, CAMERA.baseline)
-    u, v = round(79.5 + 150 * -0.28 / 1.25), round(59.5 + 150 * 0.17 / 1.25)
+    u = round(79.5 + 150 * -0.28 / 1.25)
+    v = round(59.5 + 150 * 0.17 / 1.25)
     ray = np.array([(u - 79.5) / 150, (v - 59.5) / 150, 1.0])
     assert np.linalg.norm(depth[v, u] * ray - [-0.28, 0.17, 1.25]) == pytest.approx(0.3, abs=1e-9)
 

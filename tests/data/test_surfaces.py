@@ -115,7 +115,8 @@ def test_scaled_surfaces_and_noise():
 
 
 def test_inside_out_turns_h_and_not_k():
-    ring, turned = torus(300), inside_out(torus(300))
+    ring = torus(300)
+    turned = inside_out(torus(300))
     np.testing.assert_allclose(turned.gaussian, ring.gaussian)
     np.testing.assert_allclose(turned.mean, -ring.mean)
     assert (turned.k1 >= turned.k2).all()

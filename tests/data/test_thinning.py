@@ -21,10 +21,8 @@ def test_one_mean_for_each_occupied_voxel(seed, size):
 
 
 def test_moved_points_have_moved_means_also_far_from_the_origin():
-    p, far = (
-        np.random.default_rng(0).uniform(0, 1, (500, 3)),
-        np.array([512_000.0, 5_403_000.0, 310.0]),
-    )
+    p = np.random.default_rng(0).uniform(0, 1, (500, 3))
+    far = np.array([512_000.0, 5_403_000.0, 310.0])
     p = np.round(p * 4096) / 4096  # so that moving them away and back loses no digit
     np.testing.assert_allclose(voxel_means(p + far, 0.25) - far, voxel_means(p, 0.25), atol=1e-9)
 

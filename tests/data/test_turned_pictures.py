@@ -12,13 +12,12 @@ def test_a_turned_picture_shows_what_was_there_where_it_is_said_to_be():
     h, w = left.shape
     uv = np.column_stack([rng.integers(80, w - 80, 400), rng.integers(80, h - 80, 400)])
     for degrees in (0.0, 30.0):
-        image, places = (
-            turned(right, np.radians(degrees)),
-            places_in_turned(uv, disparity, np.radians(degrees)),
-        )
+        image = turned(right, np.radians(degrees))
+        places = places_in_turned(uv, disparity, np.radians(degrees))
         known = np.isfinite(places).all(axis=1)
         at = np.rint(places[known]).astype(int)
-        seen, wanted = image[at[:, 1], at[:, 0]], left[uv[known, 1], uv[known, 0]]
+        seen = image[at[:, 1], at[:, 0]]
+        wanted = left[uv[known, 1], uv[known, 0]]
         assert known.mean() > 0.7
         assert np.corrcoef(seen, wanted)[0, 1] > 0.8
     assert turned(right, 0.0) is right

@@ -93,7 +93,8 @@ def written(folder: Path, **arrays) -> Path:
 
 def test_what_a_file_says_of_the_cameras_is_read(tmp_path):
     uv = np.random.default_rng(0).uniform(0, 500, (30, 4))
-    R, t = exp_so3(np.array([0.1, 0.2, 0.0])), np.array([1.0, 2.0, 3.0])
+    R = exp_so3(np.array([0.1, 0.2, 0.0]))
+    t = np.array([1.0, 2.0, 3.0])
     K = np.array([[500.0, 0, 250], [0, 500, 250], [0, 0, 1]])
     found = read_matches(written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], K=K, R=R, t=t))
     np.testing.assert_array_equal(found.K_first, found.K_second)

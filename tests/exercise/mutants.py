@@ -99,7 +99,8 @@ def _functions(module: ModuleType) -> dict[str, ast.FunctionDef]:
 
 def _used(parts: dict[str, ast.FunctionDef], name: str) -> list[str]:
     """Return the names of a function and of those that it calls, in its module."""
-    found, waiting = [], [name]
+    found = []
+    waiting = [name]
     while waiting:
         part = waiting.pop()
         if part in parts and part not in found:
@@ -342,7 +343,8 @@ def accepted() -> set[str]:
 def main(arguments: list[str]) -> None:
     """Print the table."""
     resource.setrlimit(resource.RLIMIT_AS, (GIGABYTES << 30, GIGABYTES << 30))
-    known, write = accepted(), sys.stdout.write
+    known = accepted()
+    write = sys.stdout.write
     most = int(arguments.pop(arguments.index("--sample") + 1)) if "--sample" in arguments else None
     wanted = [name for name in arguments if not name.startswith("-")] or list(exercises())
     line = (

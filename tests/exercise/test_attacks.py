@@ -75,11 +75,9 @@ class Teacher:
     """
 
     def __init__(self, folder: Path):
-        self.folder, self.secret, self.results = (
-            folder,
-            folder / "secret.txt",
-            folder / "students.json",
-        )
+        self.folder = folder
+        self.secret = folder / "secret.txt"
+        self.results = folder / "students.json"
         self.secret.write_text("the answers")
         self.results.write_text('{"points": 0}')
         self.listening = socket.create_server(("127.0.0.1", 0))

@@ -167,7 +167,8 @@ def opened(monkeypatch):
 @pytest.mark.parametrize("exercise", exercises().values(), ids=lambda one: one.name)
 def test_the_run_that_is_opened_calls_the_function(exercise, opened, tmp_path):
     _, params, step = opened(exercise.lesson, "--with", write_starter(exercise, tmp_path))
-    lesson, calls = catalog()[exercise.lesson], []
+    lesson = catalog()[exercise.lesson]
+    calls = []
 
     def counting(*args):
         calls.append(args)
@@ -203,10 +204,8 @@ def test_a_run_that_does_not_call_the_function_says_so():
     exercise = exercises()["point_to_plane_step"]
     lesson = catalog()["icp"]
     paired = driven(lesson, exercise, exercise.reference)
-    idle, calling = (
-        Timeline(paired, lesson.params()),
-        Timeline(paired, lesson.preset("plane").params),
-    )
+    idle = Timeline(paired, lesson.params())
+    calling = Timeline(paired, lesson.preset("plane").params)
     idle.extend()
     assert calls_it(idle) is None  # nobody knows yet
     assert calls_it(idle.complete()) is False

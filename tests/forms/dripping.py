@@ -55,7 +55,8 @@ def run(params: Input, bucket: Bucket, *, halve: Halve = halve) -> Iterator[int]
 
 def draw(look: Look[Input, Bucket, int]) -> Scene:
     """Show the points that are left."""
-    p, lost = look.subject.p[: look.now], (look.before or look.now) - look.now
+    p = look.subject.p[: look.now]
+    lost = (look.before or look.now) - look.now
     reach = float(np.linalg.norm(p - look.subject.centre, axis=1).max())
     return {
         "points": Points(p, "target", 0.02, name="points"),

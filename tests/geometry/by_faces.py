@@ -14,10 +14,8 @@ def measured_face_by_face(
     """Return angle sums, mixed areas, which vertices lie on the border, and V - E + F, face by
     face.
     """
-    p, faces = (
-        np.frombuffer(p_bytes).reshape(-1, 3),
-        np.frombuffer(faces_bytes, dtype=np.int64).reshape(-1, 3),
-    )
+    p = np.frombuffer(p_bytes).reshape(-1, 3)
+    faces = np.frombuffer(faces_bytes, dtype=np.int64).reshape(-1, 3)
     angles, areas = np.zeros(len(p)), np.zeros(len(p))
     a, b, c = p[faces].swapaxes(0, 1)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2

@@ -29,9 +29,12 @@ def test_points_of_a_circle_give_that_circle(kind, seed, arc):
 def test_the_circle_turns_moves_and_grows_with_the_points(kind, seed):
     rng = np.random.default_rng(seed)
     p = arc_points(2.0, 30) + 0.05 * rng.normal(size=(30, 2))
-    a, scale, shift = rng.uniform(0, 7), rng.uniform(0.1, 10), rng.normal(size=2) * 5
+    a = rng.uniform(0, 7)
+    scale = rng.uniform(0.1, 10)
+    shift = rng.normal(size=2) * 5
     R = np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]])
-    circle, moved = fit_algebraic(p, kind), fit_algebraic(scale * p @ R.T + shift, kind)
+    circle = fit_algebraic(p, kind)
+    moved = fit_algebraic(scale * p @ R.T + shift, kind)
     np.testing.assert_allclose(
         moved, np.append(scale * R @ circle[:2] + shift, scale * circle[2]), rtol=1e-6, atol=1e-7
     )

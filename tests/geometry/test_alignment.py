@@ -54,7 +54,8 @@ def test_similarity_finds_the_scale_and_affine_the_shear(seed, scale, T):
 @settings(max_examples=40, deadline=None)
 @given(SEEDS, motions(), motions())
 def test_moving_target_and_source_moves_the_answer(seed, T_new_target, T_new_source):
-    p_target, p_source = cloud(seed), cloud(seed + 1)
+    p_target = cloud(seed)
+    p_source = cloud(seed + 1)
     p_target = p_source @ exp_so3(np.array([0.3, 0.2, -0.5])).T + 0.1 * p_target
     for align in ALIGN.values():
         T = align(p_target, p_source)
@@ -65,7 +66,8 @@ def test_moving_target_and_source_moves_the_answer(seed, T_new_target, T_new_sou
 @settings(max_examples=25, deadline=None)
 @given(SEEDS, SEEDS)
 def test_no_motion_nearby_is_better(seed, other):
-    p_target, p_source = cloud(seed), cloud(seed + 1)
+    p_target = cloud(seed)
+    p_source = cloud(seed + 1)
     T = align_rigid(p_target, p_source)
     best = rmse(T, p_target, p_source)
     for twist in 0.01 * np.random.default_rng(other).standard_normal((10, 6)):
@@ -77,7 +79,8 @@ def test_no_motion_nearby_is_better(seed, other):
 @settings(max_examples=40, deadline=None)
 @given(SEEDS)
 def test_rigid_agrees_with_scipy_with_and_without_weights(seed):
-    p_target, p_source = cloud(seed), cloud(seed + 1)
+    p_target = cloud(seed)
+    p_source = cloud(seed + 1)
     weights = np.random.default_rng(seed).random(len(p_target))
     for w in (None, weights):
         mean_t, mean_s = (np.average(p, axis=0, weights=w) for p in (p_target, p_source))
@@ -92,7 +95,8 @@ def test_rigid_agrees_with_scipy_with_and_without_weights(seed):
 @settings(max_examples=40, deadline=None)
 @given(SEEDS)
 def test_a_weight_of_two_is_the_pair_twice_and_of_zero_not_at_all(seed):
-    p_target, p_source = cloud(seed), cloud(seed + 1)
+    p_target = cloud(seed)
+    p_source = cloud(seed + 1)
     weights = np.array([0.0] * 5 + [2.0] * 5 + [1.0] * 20)
     rows = np.repeat(np.arange(30), weights.astype(int))
     for align in ALIGN.values():
@@ -204,18 +208,25 @@ def on_a_sphere(n: int) -> np.ndarray:
 @given(SEEDS)
 def test_the_plane_step_solves_the_linear_problem(seed):
     rng = np.random.default_rng(seed)
-    p_target, p_source, n = cloud(seed), cloud(seed) + 0.01 * rng.random((30, 3)), on_a_sphere(30)
+    p_target = cloud(seed)
+    p_source = cloud(seed) + 0.01 * rng.random((30, 3))
+    n = on_a_sphere(30)
     jacobian = np.hstack([np.cross(p_source - p_source.mean(0), n), n])
     x = np.linalg.lstsq(jacobian, np.einsum("ij,ij->i", p_target - p_source, n), rcond=None)[0]
-    R, centre = exp_so3(x[:3]), p_source.mean(0)
+    R = exp_so3(x[:3])
+    centre = p_source.mean(0)
     expected = motion(R, centre + x[3:] - R @ centre)
     np.testing.assert_allclose(point_to_plane_step(p_target, p_source, n), expected, atol=1e-9)
 
 
 def test_plane_steps_converge_to_the_motion_quadratically():
-    p, n = cloud(7, 200), on_a_sphere(200)
+    p = cloud(7, 200)
+    n = on_a_sphere(200)
     T = exp_se3(np.array([0.1, -0.2, 0.05, 0.2, -0.1, 0.3]))
-    p_target, n_target, found, errors = apply(T, p), n @ T[:3, :3].T, np.eye(4), []
+    p_target = apply(T, p)
+    n_target = n @ T[:3, :3].T
+    found = np.eye(4)
+    errors = []
     for _ in range(5):
         found = point_to_plane_step(p_target, apply(found, p), n_target) @ found
         errors.append(rotation_angle(found[:3, :3] @ T[:3, :3].T))
@@ -224,7 +235,8 @@ def test_plane_steps_converge_to_the_motion_quadratically():
 
 
 def test_the_plane_step_is_equivariant_and_right_far_away():
-    p, n = cloud(8, 500), on_a_sphere(500)
+    p = cloud(8, 500)
+    n = on_a_sphere(500)
     p_target = p + 0.01 * cloud(9, 500)
     step = point_to_plane_step(p_target, p, n)
     T = motion(exp_so3(np.array([1.0, -0.5, 2.0])), np.array([3.0, 1.0, -2.0]))

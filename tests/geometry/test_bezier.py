@@ -25,13 +25,15 @@ def a_net(seed: int) -> np.ndarray:
 
 @given(st.integers(0, 6), st.floats(0, 1))
 def test_weights_add_up_to_one_and_mirror(degree, t):
-    row, mirrored = bernstein(degree, np.array([t]))[0], bernstein(degree, np.array([1 - t]))[0]
+    row = bernstein(degree, np.array([t]))[0]
+    mirrored = bernstein(degree, np.array([1 - t]))[0]
     assert row.sum() == pytest.approx(1)
     np.testing.assert_allclose(row, mirrored[::-1], atol=1e-12)
 
 
 def test_a_patch_is_scipys_polynomials_along_both_directions():
-    control, uv = a_net(0), np.random.default_rng(1).random((30, 2))
+    control = a_net(0)
+    uv = np.random.default_rng(1).random((30, 2))
     for (u, v), p in zip(uv, bezier_patch(control, uv), strict=True):
         rows = BPoly(control.transpose(1, 0, 2)[:, None], [0, 1])(v)
         np.testing.assert_allclose(BPoly(np.asarray(rows)[:, None], [0, 1])(u), p, atol=1e-12)
@@ -47,7 +49,8 @@ def test_dividing_legs_gives_the_same_point(seed, u, v):
 
 
 def test_a_patch_moves_with_its_net_and_stays_in_its_box():
-    control, uv = a_net(3), np.random.default_rng(4).random((40, 2))
+    control = a_net(3)
+    uv = np.random.default_rng(4).random((40, 2))
     p = bezier_patch(control, uv)
     np.testing.assert_allclose(bezier_patch(2 * control + 5, uv), 2 * p + 5)
     assert (p >= control.min(axis=(0, 1))).all()

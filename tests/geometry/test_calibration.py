@@ -109,7 +109,8 @@ def test_a_noisy_homography_gives_a_rotation_before_the_camera():
 
 def test_the_linear_lens_is_exact_where_camera_and_poses_are():
     rng = np.random.default_rng(3)
-    K, lens = camera(rng), Distortion(k1=-0.2, k2=0.07)
+    K = camera(rng)
+    lens = Distortion(k1=-0.2, k2=0.07)
     Ts = np.stack([pose(rng) for _ in range(3)])
     uv = np.stack([project(P, T, K, lens) for T in Ts])
     np.testing.assert_allclose(linear_lens(K, Ts, P, uv=uv), [-0.2, 0.07], atol=1e-10)

@@ -137,7 +137,8 @@ def test_what_the_lens_would_fold_back_into_the_picture_is_nan():
 
 
 def test_look_at_puts_the_target_on_the_axis_and_up_upwards():
-    eye, target = np.array([3.0, -2.0, 1.5]), np.array([0.0, 4.0, 1.0])
+    eye = np.array([3.0, -2.0, 1.5])
+    target = np.array([0.0, 4.0, 1.0])
     T_camera_world = look_at(eye, target)
     uv = project(np.stack([target, target + np.array([0.0, 0.0, 0.5])]), T_camera_world, K)
     np.testing.assert_allclose(uv[0], K[:2, 2], atol=1e-9)
@@ -158,7 +159,8 @@ def test_look_at_straight_up_and_down_is_still_a_rigid_motion(direction):
 
 def test_orthographic_is_the_limit_of_the_dolly_at_rate_one_over_factor():
     rng = np.random.default_rng(4)
-    T_camera_world, depth = look_at(np.array([0.0, -4.0, 1.0]), np.array([0.0, 0.0, 1.0])), 4.0
+    T_camera_world = look_at(np.array([0.0, -4.0, 1.0]), np.array([0.0, 0.0, 1.0]))
+    depth = 4.0
     p_world = rng.uniform(-1, 1, (40, 3)) + np.array([0.0, 0.0, 1.0])
     K_flat = K.copy()
     K_flat[:2, :2] /= depth
@@ -211,10 +213,12 @@ def test_lines_parallel_to_the_picture_have_no_vanishing_point():
 @given(seed=seeds)
 def test_the_outline_of_a_sphere_is_where_rays_graze_it_and_is_an_ellipse(seed):
     rng = np.random.default_rng(seed)
-    T_camera_world, radius = any_motion(rng), 0.6
+    T_camera_world = any_motion(rng)
+    radius = 0.6
     center = apply(inverse(T_camera_world), np.array([1.2, -0.7, 3.0]))
     outline = sphere_outline(center, radius, T_camera_world)
-    to_center, to_camera = outline - center, outline - camera_center(T_camera_world)
+    to_center = outline - center
+    to_camera = outline - camera_center(T_camera_world)
     np.testing.assert_allclose(np.linalg.norm(to_center, axis=1), radius, atol=1e-12)
     np.testing.assert_allclose(np.einsum("ni,ni->n", to_center, to_camera), 0.0, atol=1e-12)
     u, v = normalize(project(outline, T_camera_world, K), K).T
@@ -284,7 +288,8 @@ def bow(rows: np.ndarray) -> float:
     """The median over board rows of how far, in pixels, the middle corner is from the line through
     the outer ones.
     """
-    way, middle = rows[..., -1, :] - rows[..., 0, :], rows[..., 4, :] - rows[..., 0, :]
+    way = rows[..., -1, :] - rows[..., 0, :]
+    middle = rows[..., 4, :] - rows[..., 0, :]
     cross = way[..., 0] * middle[..., 1] - way[..., 1] * middle[..., 0]
     return float(np.median(np.abs(cross) / np.linalg.norm(way, axis=-1)))
 

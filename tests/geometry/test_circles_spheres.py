@@ -112,7 +112,8 @@ def test_too_few_points_are_refused():
 @pytest.mark.parametrize("d", [2, 3])
 def test_the_cost_of_a_centre_is_that_of_its_best_radius(d):
     rng = np.random.default_rng(0)
-    p, centers = rng.normal(size=(30, d)), 3 * rng.normal(size=(50, d))
+    p = rng.normal(size=(30, d))
+    centers = 3 * rng.normal(size=(50, d))
     for center, cost in zip(centers, costs_of_centers(p, centers), strict=True):
         ways = np.linalg.norm(p - center, axis=1)
         best = scipy.optimize.minimize_scalar(lambda r, ways=ways: np.square(ways - r).sum())

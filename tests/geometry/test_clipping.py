@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from workbench.geometry.clipping import clip_lines, plane_in_box, segments_inside
 from workbench.geometry.shapes.lines_planes import plane_from_points
 
-LOW, HIGH = np.array([-1.0, -2.0, -0.5]), np.array([1.5, 1.0, 2.0])
+LOW = np.array([-1.0, -2.0, -0.5])
+HIGH = np.array([1.5, 1.0, 2.0])
 SEEDS = st.integers(0, 10_000)
 
 

@@ -26,7 +26,8 @@ def around(p: np.ndarray, n: int, seed: int) -> np.ndarray:
 def test_rays_and_solid_angles_agree():
     p, faces = RABBIT
     q = around(p, 500, 0)
-    by_rays, by_angles = windings(columns(p, faces), q), winding_numbers(p, faces, q)
+    by_rays = windings(columns(p, faces), q)
+    by_angles = winding_numbers(p, faces, q)
     np.testing.assert_allclose(by_angles, by_rays, atol=1e-9)
     assert 0.1 < by_rays.mean() < 0.5
     assert set(by_rays.tolist()) == {0, 1}
@@ -42,7 +43,8 @@ def test_turned_inside_out_the_winding_is_negative_and_inside_stays():
 
 
 def test_overlapping_spheres_wind_twice_and_are_one_solid():
-    two, q = two_spheres(3), around(two_spheres(3).p, 4000, 2)
+    two = two_spheres(3)
+    q = around(two_spheres(3).p, 4000, 2)
     found = windings(columns(two.p, two.faces), q)
     assert set(found.tolist()) == {0, 1, 2}
     far = np.abs(np.linalg.norm(np.abs(q) * [1, 1, 1] - [0.5, 0, 0], axis=1) - 1) > 0.02

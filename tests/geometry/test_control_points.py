@@ -74,7 +74,8 @@ def test_points_of_a_plane_have_three_control_points():
 def test_moving_the_world_moves_the_answer_and_side_by_side_is_one_by_one():
     for flat in (False, True):
         _, p_world, xy = views(9, 12, flat=flat)
-        together, T_moved = epnp(p_world, xy), exp_se3(np.array([3.0, -2.0, 5.0, 0.4, -1.0, 2.0]))
+        together = epnp(p_world, xy)
+        T_moved = exp_se3(np.array([3.0, -2.0, 5.0, 0.4, -1.0, 2.0]))
         for T, p, seen in zip(together, p_world, xy, strict=True):
             np.testing.assert_allclose(epnp(p, seen), T, atol=1e-7)
             np.testing.assert_allclose(epnp(apply(T_moved, p), seen) @ T_moved, T, atol=1e-6)
@@ -89,7 +90,8 @@ def test_the_order_of_four_points_does_not_matter():
 
 
 def test_flat_and_solid_points_may_be_solved_side_by_side():
-    solid, flat = views(8, 3), views(8, 3, flat=True)
+    solid = views(8, 3)
+    flat = views(8, 3, flat=True)
     p_world, xy = (
         np.concatenate([a, b])[[0, 3, 1, 4, 2, 5]] for a, b in zip(solid[1:], flat[1:], strict=True)
     )

@@ -112,7 +112,9 @@ def test_the_box_of_a_balls_coordinates_is_two_pi_squared():
 
 @pytest.mark.parametrize("system", sorted(SYSTEMS))
 def test_the_density_is_the_determinant_of_the_derivative(system):
-    of, c, h = SYSTEMS[system], np.array([0.7, 0.9, 0.4]), 1e-5
+    of = SYSTEMS[system]
+    c = np.array([0.7, 0.9, 0.4])
+    h = 1e-5
     J = np.column_stack(
         [
             (of.to_points(c[None] + d) - of.to_points(c[None] - d))[0] / (2 * h)

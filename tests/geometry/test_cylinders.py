@@ -22,7 +22,9 @@ def a_cylinder(rng: np.random.Generator) -> np.ndarray:
 @given(seed=seeds)
 def test_the_slopes_are_those_of_the_distances(seed):
     rng = np.random.default_rng(seed)
-    cylinder, p, h = a_cylinder(rng), rng.normal(size=(9, 3)) * 2, 1e-6
+    cylinder = a_cylinder(rng)
+    p = rng.normal(size=(9, 3)) * 2
+    h = 1e-6
     residuals, jacobian = linearise_cylinder(cylinder, p)
     np.testing.assert_allclose(residuals, distances("cylinder", cylinder, p), atol=1e-12)
     for k, e in enumerate(np.eye(5)):
@@ -48,7 +50,8 @@ def test_a_step_keeps_the_direction_a_unit_vector(seed):
 
 def test_many_at_once_are_each_alone():
     rng = np.random.default_rng(0)
-    cylinders, p = np.stack([a_cylinder(rng) for _ in range(4)]), rng.normal(size=(4, 7, 3))
+    cylinders = np.stack([a_cylinder(rng) for _ in range(4)])
+    p = rng.normal(size=(4, 7, 3))
     residuals, jacobians = linearise_cylinder(cylinders, p)
     for k in range(4):
         alone = linearise_cylinder(cylinders[k], p[k])
@@ -61,9 +64,11 @@ def test_seven_numbers_have_two_that_change_nothing():
     direction.
     """
     rng = np.random.default_rng(1)
-    turn, z = rng.uniform(0, 2 * np.pi, 200), rng.uniform(-1, 1, 200)
+    turn = rng.uniform(0, 2 * np.pi, 200)
+    z = rng.uniform(-1, 1, 200)
     p = np.column_stack([np.cos(turn), np.sin(turn), z])
-    cylinder, h = np.array([0.0, 0, 0, 0, 0, 1, 1]), 1e-6
+    cylinder = np.array([0.0, 0, 0, 0, 0, 1, 1])
+    h = 1e-6
     J = np.column_stack(
         [
             (

@@ -37,7 +37,8 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def disc(rng: np.random.Generator, radius: float, n: int = 200) -> np.ndarray:
-    r, angle = radius * np.sqrt(rng.uniform(0, 1, n)), rng.uniform(0, 2 * np.pi, n)
+    r = radius * np.sqrt(rng.uniform(0, 1, n))
+    angle = rng.uniform(0, 2 * np.pi, n)
     return np.column_stack([r * np.cos(angle), r * np.sin(angle)])
 
 
@@ -53,7 +54,8 @@ def test_undistort_inverts_to_1e_10_up_to_where_the_model_folds(lens, seed):
 @settings(max_examples=50, deadline=None)
 @given(lens=lenses, seed=seeds)
 def test_the_jacobian_is_the_derivative_and_is_symmetric(lens, seed):
-    xy, step = disc(np.random.default_rng(seed), 1.0, 20), 1e-5
+    xy = disc(np.random.default_rng(seed), 1.0, 20)
+    step = 1e-5
     J = jacobian(xy, lens)
     for axis in range(2):
         move = step * np.eye(2)[axis]

@@ -64,7 +64,8 @@ def test_all_four_are_motions_of_any_matrix(seed):
     E = np.random.default_rng(seed).normal(size=(3, 3))
     nearest = equal_singular_values(E)
     for T in essential_to_poses(E):
-        R, t = T[:3, :3], T[:3, 3]
+        R = T[:3, :3]
+        t = T[:3, 3]
         np.testing.assert_allclose(R.T @ R, np.eye(3), atol=1e-12)
         assert np.linalg.det(R) == pytest.approx(1)
         assert np.linalg.norm(t) == pytest.approx(1)
@@ -135,11 +136,9 @@ def test_a_motion_that_only_turns_is_refused():
 def test_the_fountains_motion(shared_data):
     found = np.load(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
     good = np.abs(found["gt_sampson"]) < 1
-    uv_first, uv_second, K_ = (
-        found["x1"][good].astype(float),
-        found["x2"][good].astype(float),
-        found["K1"],
-    )
+    uv_first = found["x1"][good].astype(float)
+    uv_second = found["x2"][good].astype(float)
+    K_ = found["K1"]
     E = essential_from_fundamental(fit_fundamental(uv_first, uv_second), K_, K_)
     Ts = essential_to_poses(E)
     P = camera_matrix(K_, np.eye(4))
@@ -159,7 +158,8 @@ def test_the_fountains_motion(shared_data):
 @given(st.integers(0, 10_000))
 def test_the_four_motions_come_in_one_order_whatever_basis_a_library_takes(seed):
     rng = np.random.default_rng(seed)
-    R, t = exp_so3(rng.normal(size=3)), rng.normal(size=3)
+    R = exp_so3(rng.normal(size=3))
+    t = rng.normal(size=3)
     E = skew(t) @ R
     expected = essential_to_poses(E)
     U, s, Vt = np.linalg.svd(E)

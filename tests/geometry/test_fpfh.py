@@ -54,7 +54,8 @@ def test_without_a_frame_all_are_zero():
 
 def plainly(p: np.ndarray, n: np.ndarray, radius: float) -> np.ndarray:
     """The descriptor in loops, as Open3D's source has it."""
-    own, near = np.zeros((len(p), 33)), []
+    own = np.zeros((len(p), 33))
+    near = []
     for i in range(len(p)):
         d = np.linalg.norm(p - p[i], axis=1)
         near.append([j for j in np.flatnonzero(d <= radius) if j != i])
@@ -159,7 +160,8 @@ def test_it_is_what_open3d_gives():
 
 def test_it_does_not_change_with_a_motion_and_sums_to_600():
     p = rabbit(400, np.random.default_rng(1))
-    n, T = point_normals(p), motion(exp_so3(np.array([0.5, -1.0, 0.3])), np.array([2.0, 1.0, 0.0]))
+    n = point_normals(p)
+    T = motion(exp_so3(np.array([0.5, -1.0, 0.3])), np.array([2.0, 1.0, 0.0]))
     found = fpfh(p, n, 0.2)
     np.testing.assert_allclose(found.sum(axis=1), 600)
     off = np.abs(fpfh(apply(T, p), n @ T[:3, :3].T, 0.2) - found).max(axis=1)

@@ -53,7 +53,8 @@ def test_a_path_is_as_long_as_its_distance(seed):
 
 
 def test_no_path_leads_out_of_reach():
-    edges, lengths = np.array([[0, 1]]), np.array([1.0])
+    edges = np.array([[0, 1]])
+    lengths = np.array([1.0])
     d = geodesics.shortest_distances(edges, lengths, 3, 0)
     assert len(geodesics.shortest_path(edges, lengths, d, goal=2)) == 0
     assert geodesics.shortest_path(edges, lengths, np.array([0.0, 0.0, 1.0]), goal=2).tolist() == [
@@ -68,10 +69,8 @@ def test_the_worst_error_on_a_grid_is_that_of_its_directions(neighbours, worst, 
     p = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
     edges = geodesics.grid_edges(side, neighbours)
     assert len(np.unique(np.sort(edges, axis=1), axis=0)) == len(edges)
-    d, true = (
-        geodesics.shortest_distances(edges, geodesics.edge_lengths(p, edges), len(p), 0),
-        np.linalg.norm(p, axis=1),
-    )
+    d = geodesics.shortest_distances(edges, geodesics.edge_lengths(p, edges), len(p), 0)
+    true = np.linalg.norm(p, axis=1)
     assert 100 * (d[1:] / true[1:] - 1).max() == pytest.approx(worst, abs=0.011)
     assert (d >= true - 1e-12).all()
     if neighbours == 8:
@@ -133,7 +132,8 @@ def test_over_a_cube_the_way_is_that_of_its_net():
 
 
 def test_the_way_round_a_wall():
-    tip, q = np.array([0.0, 0.3]), np.array([-0.3, 0.0])
+    tip = np.array([0.0, 0.3])
+    q = np.array([-0.3, 0.0])
     p = np.array([[0.3, -0.2], [0.3, 0.6], [-0.2, -0.4], [0.3, 0.61], [0.0, 0.4]])
     d = geodesics.distance_past_wall(p, q, tip)
     straight = np.linalg.norm(p - q, axis=1)

@@ -93,7 +93,8 @@ def test_places_on_the_way_divide_it(a, b, t):
 
 
 def test_antipodes_have_no_way_and_no_middle():
-    a, b = np.array([10.0, 20.0]), np.array([-10.0, -160.0])
+    a = np.array([10.0, 20.0])
+    b = np.array([-10.0, -160.0])
     with pytest.raises(ValueError, match="antipodes"):
         great_circle_places(a, b, np.array([0.5]))
     with pytest.raises(ValueError, match="cancel"):
@@ -121,7 +122,8 @@ def test_units_and_places_are_inverse(place):
 
 
 def test_latitude_is_the_normals_angle():
-    globe, latitude = Ellipsoid(2.0, 0.3), np.linspace(-1.5, 1.5, 11)
+    globe = Ellipsoid(2.0, 0.3)
+    latitude = np.linspace(-1.5, 1.5, 11)
     rho, z = globe.meridian(latitude).T
     np.testing.assert_allclose((rho / 2.0) ** 2 + (z / 1.4) ** 2, 1)
     np.testing.assert_allclose(

@@ -209,7 +209,8 @@ def test_propagation_has_the_largest_eigenvalue_one_along_the_roots_of_degrees(s
 def test_a_layer_of_the_karate_club():
     adjacency = of(networks.karate()).toarray()
     assert graphs.propagation(adjacency)[0, 0] == pytest.approx(1 / 17)
-    x, w = np.eye(34), np.random.default_rng(0).normal(size=(34, 3))
+    x = np.eye(34)
+    w = np.random.default_rng(0).normal(size=(34, 3))
     layer = graphs.gcn_layer(adjacency, x, w)
     np.testing.assert_allclose(layer, np.maximum(graphs.propagation(adjacency) @ w, 0))
     assert (graphs.gcn_layer(np.zeros((3, 3)), np.eye(3), np.eye(3)) == np.eye(3)).all()
@@ -222,7 +223,8 @@ def test_a_layer_of_the_karate_club():
 @given(st.integers(0, 10_000))
 @example(217)  # a node without edges comes first
 def test_a_sweep_is_every_cut_one_by_one(seed):
-    adjacency, values = some_graph(seed), np.random.default_rng(seed).normal(size=30)
+    adjacency = some_graph(seed)
+    values = np.random.default_rng(seed).normal(size=30)
     order, found = graphs.sweep(adjacency, values)
     np.testing.assert_array_equal(order, np.argsort(values))
     for k in range(29):

@@ -58,7 +58,8 @@ def test_weight_zero_is_absence_and_weight_two_is_twice():
         fit_homography,
         lambda a, b, w=None: refine_homography(fit_homography(a, b, w), a, b, weights=w, steps=40),
     ):
-        ours, repeated = fit(uv_a, uv_b, weights), fit(uv_a[rows], uv_b[rows])
+        ours = fit(uv_a, uv_b, weights)
+        repeated = fit(uv_a[rows], uv_b[rows])
         tolerance = 0.05 if fit is fit_homography else 1e-3  # the normalisation sees all pixels
         np.testing.assert_allclose(
             transform_pixels(ours, uv_a), transform_pixels(repeated, uv_a), atol=tolerance
@@ -95,7 +96,8 @@ def test_far_from_the_origin_nothing_is_lost():
 
 def test_a_quadrangle_that_no_camera_sees_is_refused():
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    crossed, mirrored = square[[0, 2, 1, 3]], square[:, ::-1].copy()
+    crossed = square[[0, 2, 1, 3]]
+    mirrored = square[:, ::-1].copy()
     line = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]])
     double = square[[0, 0, 1, 2]]
     assert four_in_general_position(square, 300 * square + 20)

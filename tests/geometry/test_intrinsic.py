@@ -88,10 +88,8 @@ def test_a_delaunay_mesh_stays_as_it_is():
 def test_distances_below_zero_are_mended():
     p, faces = rabbit_mesh(0.05)
     p = p * [1, 1, 6]
-    time, source = (
-        mean_edge_length(p, faces) ** 2,
-        np.random.default_rng(0).integers(len(p), size=8),
-    )
+    time = mean_edge_length(p, faces) ** 2
+    source = np.random.default_rng(0).integers(len(p), size=8)
     below = []
     for measured in (corners(p, faces), intrinsic_delaunay(p, faces)):
         method = HeatMethod(measured, time)

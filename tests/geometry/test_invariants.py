@@ -63,10 +63,8 @@ def test_what_survives_which_map(H, survivors):
 
 def test_amounts_are_what_was_done():
     s = house()
-    before, after = (
-        measure(s.p, s.faces),
-        measure(transform(scaling(np.full(3, 1.5)), s.p), s.faces),
-    )
+    before = measure(s.p, s.faces)
+    after = measure(transform(scaling(np.full(3, 1.5)), s.p), s.faces)
     amounts = {c.name: c.amount for c in changes(before, after)}
     assert amounts["edge lengths"] == pytest.approx(0.5)
     assert amounts["area"] == pytest.approx(1.25)
@@ -76,7 +74,8 @@ def test_amounts_are_what_was_done():
 @settings(max_examples=30, deadline=None)
 @given(st.lists(st.floats(-2, 2), min_size=9, max_size=9))
 def test_volume_goes_with_the_determinant(row):
-    s, A = house(), np.array(row).reshape(3, 3)
+    s = house()
+    A = np.array(row).reshape(3, 3)
     assert signed_volume(s.p @ A.T, s.faces) == pytest.approx(
         np.linalg.det(A) * signed_volume(s.p, s.faces), abs=1e-12
     )

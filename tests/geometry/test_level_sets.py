@@ -23,7 +23,9 @@ def torus(n: int) -> tuple[np.ndarray, Grid]:
 
 def test_crossings_of_linear_fields_are_exact_and_do_not_depend_on_the_order():
     rng = np.random.default_rng(0)
-    a, b, n = rng.normal(size=(200, 3)), rng.normal(size=(200, 3)), np.array([1.0, -2, 0.5])
+    a = rng.normal(size=(200, 3))
+    b = rng.normal(size=(200, 3))
+    n = np.array([1.0, -2, 0.5])
     f_a, f_b = a @ n - 0.1, b @ n - 0.1
     cross = f_a * f_b < 0
     p = edge_crossings(a[cross], b[cross], f_a[cross], f_b[cross])

@@ -47,8 +47,11 @@ def test_many_samples_give_what_each_gives_alone(d):
 @given(seed=seeds)
 def test_a_plane_moves_with_its_points(seed):
     rng = np.random.default_rng(seed)
-    p, R, t = rng.normal(size=(3, 3)), exp_so3(rng.normal(size=3)), rng.normal(size=3)
-    before, after = plane_from_points(p), plane_from_points(p @ R.T + t)
+    p = rng.normal(size=(3, 3))
+    R = exp_so3(rng.normal(size=3))
+    t = rng.normal(size=3)
+    before = plane_from_points(p)
+    after = plane_from_points(p @ R.T + t)
     np.testing.assert_allclose(after[:3], R @ before[:3], atol=1e-7)
     assert after[3] == pytest.approx(before[3] - R @ before[:3] @ t, abs=1e-6)
 
@@ -80,7 +83,8 @@ def test_a_small_or_a_far_triangle_is_not_degenerate():
 @given(seed=seeds, d=st.sampled_from([2, 3]))
 def test_no_small_change_betters_the_least_squares_fit(seed, d):
     rng = np.random.default_rng(seed)
-    p, weights = rng.normal(size=(20, d)) * np.linspace(0.2, 1.0, d), rng.random(20)
+    p = rng.normal(size=(20, d)) * np.linspace(0.2, 1.0, d)
+    weights = rng.random(20)
     best = fit_hyperplane(p, weights)
     cost = weights @ hyperplane_distances(best, p) ** 2
     for _ in range(10):

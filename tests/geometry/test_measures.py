@@ -29,10 +29,8 @@ seeds = st.integers(0, 2**32 - 1)
 def test_motions_keep_and_sizes_multiply(seed):
     p, faces = RABBIT
     rng = np.random.default_rng(seed)
-    factor, moved = (
-        rng.uniform(0.1, 10),
-        p @ exp_so3(rng.normal(size=3) * 2).T + rng.normal(size=3) * 100,
-    )
+    factor = rng.uniform(0.1, 10)
+    moved = p @ exp_so3(rng.normal(size=3) * 2).T + rng.normal(size=3) * 100
     assert signed_volume(moved, faces) == pytest.approx(signed_volume(p, faces), rel=1e-9)
     assert surface_area(moved, faces) == pytest.approx(surface_area(p, faces), rel=1e-9)
     assert signed_volume(factor * p, faces) == pytest.approx(factor**3 * signed_volume(p, faces))
@@ -86,7 +84,8 @@ def test_a_face_turned_round_or_listed_twice_leaves_edges_without_partner():
 
 
 def test_what_has_no_size():
-    p, nothing = np.eye(3), np.empty((0, 3), dtype=int)
+    p = np.eye(3)
+    nothing = np.empty((0, 3), dtype=int)
     assert surface_area(p, nothing) == signed_volume(p, nothing) == 0
     with pytest.raises(ValueError, match="no area"):
         area_centroid(p, nothing)

@@ -62,7 +62,8 @@ def test_the_laplacian_is_the_mean_of_neighbours_minus_itself():
 
 def test_folds_and_pairs_are_those_of_trimesh():
     p, faces = random_closed(np.random.default_rng(4), 50)
-    mesh, pairs = trimesh.Trimesh(p, faces, process=False), face_pairs(faces)
+    mesh = trimesh.Trimesh(p, faces, process=False)
+    pairs = face_pairs(faces)
     theirs = dict(
         zip(map(frozenset, mesh.face_adjacency.tolist()), mesh.face_adjacency_angles, strict=True)
     )
@@ -103,7 +104,8 @@ def test_a_refined_ball_loses_energy():
 
 
 def test_what_is_scattered_is_added_where_rows_repeat():
-    rows, values = np.array([2, 0, 2, 2]), np.arange(12.0).reshape(4, 3)
+    rows = np.array([2, 0, 2, 2])
+    values = np.arange(12.0).reshape(4, 3)
     expected = np.zeros((5, 3))
     np.add.at(expected, rows, values)
     np.testing.assert_array_equal(scattered(values, rows, 5), expected)

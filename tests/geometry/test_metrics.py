@@ -92,7 +92,9 @@ def test_without_a_covariance_mahalanobis_is_euclid():
 @given(st.integers(0, 10_000), st.integers(1, 6))
 def test_mahalanobis_beside_scipy_and_under_any_change_of_units(seed, dims):
     rng = np.random.default_rng(seed)
-    A, p, mean = rng.normal(size=(dims, dims)), rng.normal(size=(9, dims)), rng.normal(size=dims)
+    A = rng.normal(size=(dims, dims))
+    p = rng.normal(size=(9, dims))
+    mean = rng.normal(size=dims)
     S = A @ A.T + 0.1 * np.eye(dims)
     found = metrics.mahalanobis(p, mean, S)
     inverse = np.linalg.inv(S)
@@ -167,7 +169,8 @@ def test_the_robust_covariance_of_a_clean_scatter_is_the_sample_one_nearly():
 def test_the_robust_covariance_moves_with_the_points():
     good, bad, _ = masked(9)
     p = np.concatenate([good, bad])
-    A, t = np.array([[2.0, 0.3], [0.0, 0.5]]), np.array([10.0, -3.0])
+    A = np.array([[2.0, 0.3], [0.0, 0.5]])
+    t = np.array([10.0, -3.0])
     mean, S = metrics.robust_mean_and_covariance(p, np.random.default_rng(2))
     moved, T = metrics.robust_mean_and_covariance(p @ A.T + t, np.random.default_rng(2))
     np.testing.assert_allclose(moved, A @ mean + t, atol=1e-6)

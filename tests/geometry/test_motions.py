@@ -136,7 +136,8 @@ def test_a_turn_about_a_point_leaves_it_and_turns_as_much(w, p):
 
 @given(turn=st.floats(0, np.pi), length=st.floats(0.01, 100))
 def test_the_angle_between_vectors_does_not_depend_on_their_lengths(turn, length):
-    v, w = np.array([2.0, 0.0, 0.0]), length * np.array([np.cos(turn), 0.0, np.sin(turn)])
+    v = np.array([2.0, 0.0, 0.0])
+    w = length * np.array([np.cos(turn), 0.0, np.sin(turn)])
     assert angle_between(v, w) == pytest.approx(turn, abs=1e-12)
     assert angle_between(v, np.zeros(3)) == 0
 

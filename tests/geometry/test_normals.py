@@ -135,7 +135,8 @@ def test_points_on_rings_lie_on_lines_and_points_on_a_surface_do_not():
     rings = np.concatenate(
         [r * np.column_stack([np.cos(angle), np.sin(angle), 0 * angle]) for r in (8.0, 10.0)]
     )
-    plane, lump = rng.uniform(-1, 1, (600, 3)) * [1, 1, 0], rng.normal(size=(600, 3))
+    plane = rng.uniform(-1, 1, (600, 3)) * [1, 1, 0]
+    lump = rng.normal(size=(600, 3))
     assert lines(rings + 0.005 * rng.normal(size=rings.shape)).all()
     assert lines(plane).mean() < 0.03
     assert lines(lump).mean() < 0.1

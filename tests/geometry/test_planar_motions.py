@@ -23,7 +23,8 @@ def seen(T: np.ndarray, p: np.ndarray) -> np.ndarray:
 def test_the_truth_is_one_of_the_two(moved):
     for seed in range(12):
         T, p_world, xy = view(seed, 5 + seed, flat=True)
-        p_world, T = apply(exp_se3(moved), p_world), T @ inverse(exp_se3(moved))
+        p_world = apply(exp_se3(moved), p_world)
+        T = T @ inverse(exp_se3(moved))
         assert np.abs(planar_motions(p_world, xy) - T).max(axis=(1, 2)).min() < 1e-6
 
 
@@ -101,7 +102,9 @@ def test_the_stereo_rig_has_one_motion_in_all_views(shared_data):
         "inner corners": ([21, 22, 30, 31], 1.0, 83.1, 3.0),
     }
     for rows, degrees, millimetres, spread in limits.values():
-        p, poses, same = board[rows], {}, []
+        p = board[rows]
+        poses = {}
+        same = []
         for side, ((fx, fy, cx, cy), lens) in lenses.items():
             K = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
             views = [normalize(uv.astype(float), K, lens)[rows] for uv in corners[side]]

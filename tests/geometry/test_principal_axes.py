@@ -44,7 +44,8 @@ def test_far_from_the_origin_no_digit_of_the_axes_is_lost(offset):
     p = lump(1, 5000)
     away = degrees_between_axes(principal_axes(p + offset), principal_axes(p))
     assert away.max() < 1e-5
-    mean, raw = (p + offset).mean(axis=0), (p + offset).T @ (p + offset) / len(p)
+    mean = (p + offset).mean(axis=0)
+    raw = (p + offset).T @ (p + offset) / len(p)
     vectors = np.linalg.eigh(raw - np.outer(mean, mean))[1][:, ::-1]
     assert (degrees_between_axes(vectors, principal_axes(p)).max() > 0.1) == (
         offset == 1e6
@@ -89,7 +90,8 @@ def test_a_mirror_image_has_the_mirrored_axes_but_not_the_third():
 
 
 def test_the_largest_entry_does_not_move_with_the_cloud():
-    p, different = rabbit(300, np.random.default_rng(0)), 0
+    p = rabbit(300, np.random.default_rng(0))
+    different = 0
     V = largest_entry_signs(principal_axes(p))
     rng = np.random.default_rng(1)
     for _ in range(100):

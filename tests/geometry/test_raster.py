@@ -344,7 +344,8 @@ def test_the_street_is_drawn_whole_and_its_camera_sees_its_parts():
 
 def test_points_in_sight_are_those_that_nothing_stands_before():
     T_camera_world = look_at(np.array([0.5, -3.0, 1.7]), np.array([0.3, 8.0, 1.0]))
-    K_street, eye = intrinsics(260.0, 159.5, 119.5), camera_center(T_camera_world)
+    K_street = intrinsics(260.0, 159.5, 119.5)
+    eye = camera_center(T_camera_world)
     p, n = (one[:600] for one in street_map())
     p = np.concatenate(
         [p[((eye - p) * n).sum(axis=1) > 0], eye + np.array([[0.0, -4.0, 0.0], [0.0, 0.0, 0.0]])]
@@ -360,12 +361,14 @@ def test_points_in_sight_are_those_that_nothing_stands_before():
     ).transpose(1, 0, 2)
     free = []
     for v in p[:-2] - eye:  # eye + s v = a + g (b - a) + h (c - a), by Cramer's rule
-        across, from_a = np.cross(v, c - a), eye - a
+        across = np.cross(v, c - a)
+        from_a = eye - a
         with np.errstate(divide="ignore", invalid="ignore"):
             scale = 1.0 / np.einsum("fx,fx->f", across, b - a)
             g = scale * np.einsum("fx,fx->f", across, from_a)
             around = np.cross(from_a, b - a)
-            h, s = scale * (around @ v), scale * np.einsum("fx,fx->f", around, c - a)
+            h = scale * (around @ v)
+            s = scale * np.einsum("fx,fx->f", around, c - a)
         free.append(not ((g >= 0) & (h >= 0) & (g + h <= 1) & (s > 0) & (s < 0.97)).any())
     u, v = project(p[:-2], T_camera_world, K_street).T
     met = np.array(free) & (u >= 0) & (u <= 319) & (v >= 0) & (v <= 239)

@@ -16,7 +16,8 @@ SIZE = (1024, 683)
 
 def beside(heading: float, turn: float = 0.0) -> np.ndarray:
     """A second camera 1 m from the first, at so many degrees from its right towards ahead."""
-    R, angle = exp_so3(np.array([0.0, turn, 0.0])), np.radians(heading)
+    R = exp_so3(np.array([0.0, turn, 0.0]))
+    angle = np.radians(heading)
     return motion(R, -R @ np.array([np.cos(angle), 0.0, np.sin(angle)]))
 
 
@@ -44,7 +45,8 @@ def test_rows_correspond_and_disparity_is_depth(seed):
 def test_a_second_camera_on_the_left_stays_upright_unless_asked_not_to():
     for heading in (180.0, 150.0, 200.0):
         T = beside(heading, -0.1)
-        upright, over = rectify(T, K, K), rectify(T, K, K, keep_upright=False)
+        upright = rectify(T, K, K)
+        over = rectify(T, K, K, keep_upright=False)
         assert upright.second_is_left
         assert over.second_is_left
         assert degrees_between(upright.R_rectified_first, np.eye(3)) < 40
@@ -120,11 +122,9 @@ def test_opencv_turns_the_cameras_alike():
 def test_the_fountains_rows(shared_data):
     found = np.load(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
     good = np.abs(found["gt_sampson"]) < 1
-    uv_first, uv_second, K_ = (
-        found["x1"][good].astype(float),
-        found["x2"][good].astype(float),
-        found["K1"],
-    )
+    uv_first = found["x1"][good].astype(float)
+    uv_second = found["x2"][good].astype(float)
+    K_ = found["K1"]
     T = motion(found["R_rel"], found["t_rel"])
     ours = rectify(T, K_, K_)
     rows = (

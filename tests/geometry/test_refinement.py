@@ -18,10 +18,8 @@ def test_it_finds_the_valley_floor():
 
 def test_it_agrees_with_scipy_where_the_residual_is_not_zero():
     rng = np.random.default_rng(0)
-    x, y = (
-        np.linspace(0, 3, 40),
-        2.0 * np.exp(-1.3 * np.linspace(0, 3, 40)) + 0.05 * rng.normal(size=40),
-    )
+    x = np.linspace(0, 3, 40)
+    y = 2.0 * np.exp(-1.3 * np.linspace(0, 3, 40)) + 0.05 * rng.normal(size=40)
 
     def model(q):
         e = np.exp(-q[1] * x)

@@ -21,7 +21,8 @@ def touching(mesh, at, times):
     p, faces = mesh
     others = np.delete(np.arange(len(p)), at)
     name = np.zeros(len(p), dtype=int)
-    placed, named = [p[[at]]], []
+    placed = [p[[at]]]
+    named = []
     for k in range(times):
         name[others] = 1 + k * len(others) + np.arange(len(others))
         placed.append(p[at] + (k + 1.0) * (p[others] - p[at]))
@@ -98,7 +99,8 @@ def test_a_moebius_strip_is_left_and_refused():
     )
     middle = np.stack([np.cos(turn), np.sin(turn), 0 * turn], 1)
     p = np.vstack([middle - 0.3 * across, middle + 0.3 * across])
-    i, j = np.arange(7), np.arange(1, 8)
+    i = np.arange(7)
+    j = np.arange(1, 8)
     faces = np.concatenate(
         [np.stack([i, j, j + 8], 1), np.stack([i, j + 8, i + 8], 1), [[7, 8, 0], [7, 0, 15]]]
     )

@@ -53,7 +53,8 @@ def test_every_pullback_is_that_of_differences(representation, d):
 
 
 def test_rotation_vectors_have_their_gradient_up_to_half_a_turn():
-    vector, rng = IN_SPACE["axis-angle"], np.random.default_rng(4)
+    vector = IN_SPACE["axis-angle"]
+    rng = np.random.default_rng(4)
     axes = rng.normal(size=(7, 3))
     y = (
         axes
@@ -105,7 +106,8 @@ def test_they_mean_what_scipy_says():
 @given(st.integers(0, 10_000), st.floats(0.01, 100), st.floats(0.01, 100))
 def test_lengths_do_not_matter_and_a_turn_of_both_vectors_turns_the_result(seed, first, second):
     rng = np.random.default_rng(seed)
-    y, Q = rng.normal(size=(5, 6)), Rotation.random(random_state=seed).as_matrix()
+    y = rng.normal(size=(5, 6))
+    Q = Rotation.random(random_state=seed).as_matrix()
     R = rotation_from_six(y)
     np.testing.assert_allclose(rotation_from_six(y * np.repeat([first, second], 3)), R, atol=1e-9)
     turned = np.concatenate([y[:, :3] @ Q.T, y[:, 3:] @ Q.T], axis=1)

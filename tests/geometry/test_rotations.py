@@ -111,7 +111,8 @@ def test_there_is_no_family_outside_of_lock():
 
 @given(triples, orders)
 def test_euler_axes_are_the_derivatives_of_the_rotation(angles, order):
-    R, h = euler_to_matrix(angles, order), 1e-6
+    R = euler_to_matrix(angles, order)
+    h = 1e-6
     for k, axis in enumerate(euler_axes(angles, order)):
         nudged = euler_to_matrix(angles + h * np.eye(3)[k], order)
         np.testing.assert_allclose(log_so3(nudged @ R.T) / h, axis, atol=1e-8)

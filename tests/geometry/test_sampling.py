@@ -71,7 +71,8 @@ def test_one_point_lies_in_each_of_so_many_boxes(draw, count):
 
 def test_chance_has_the_binomial_error():
     right = 1.0
-    rng, box_volume = np.random.default_rng(4), 4.0
+    rng = np.random.default_rng(4)
+    box_volume = 4.0
     found = np.array(
         [volume_by_chance(rng.random(200) < right / box_volume, box_volume) for _ in range(2000)]
     )
@@ -99,7 +100,8 @@ def test_lines_are_isotropic_and_tell_the_area():
     assert area == pytest.approx(
         surface_area(p, faces), abs=4 * 2 * np.pi * counts.std() / np.sqrt(4000)
     )
-    o, d = ends[line, 0], ends[line, 1] - ends[line, 0]
+    o = ends[line, 0]
+    d = ends[line, 1] - ends[line, 0]
     assert np.linalg.norm(np.cross(places - o, d), axis=1).max() < 1e-9
 
 

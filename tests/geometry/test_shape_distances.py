@@ -104,7 +104,9 @@ def test_f_score_by_hand():
 
 
 def test_chamfer_is_no_metric_even_without_squares():
-    a, b, c = np.zeros((2, 3)), np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[1.0, 0, 0]] * 2)
+    a = np.zeros((2, 3))
+    b = np.array([[0.0, 0, 0], [1, 0, 0]])
+    c = np.array([[1.0, 0, 0]] * 2)
     for definition in DEFINITIONS:
         ab, bc, ac = (
             nearest_both_ways(p, q).chamfer(definition) for p, q in ((a, b), (b, c), (a, c))

@@ -29,7 +29,8 @@ def test_a_box_is_as_far_as_its_nearest_point():
 
 @given(st.integers(0, 1000))
 def test_no_two_distances_differ_by_more_than_the_points(seed):
-    p, q = some(20, seed), some(20, seed + 5000)
+    p = some(20, seed)
+    q = some(20, seed + 5000)
     apart = np.linalg.norm(p - q, axis=1) + 1e-12
     assert (np.abs(box_sdf(p, HALF) - box_sdf(q, HALF)) <= apart).all()
     assert (np.abs(torus_sdf(p, 0.6, 0.25) - torus_sdf(q, 0.6, 0.25)) <= apart).all()
@@ -46,7 +47,8 @@ def test_a_torus_is_as_far_as_the_nearest_of_many_points_on_it():
 
 def all_faces(p: np.ndarray, faces: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Return distances by asking every triangle for every point, with trimesh."""
-    corners, answer = p[faces], []
+    corners = p[faces]
+    answer = []
     for one in q:
         near = trimesh.triangles.closest_point(corners, np.tile(one, (len(faces), 1)))
         answer.append(np.linalg.norm(near - one, axis=1).min())
@@ -62,7 +64,8 @@ def test_a_mesh_is_as_far_as_the_nearest_of_all_its_triangles():
 
 
 def test_a_box_of_twelve_triangles_has_the_boxs_distances():
-    made, q = solids.box((1.0, 0.7, 0.5)), some(500, 3)
+    made = solids.box((1.0, 0.7, 0.5))
+    q = some(500, 3)
     p = made.p - [0, 0, 0.25]
     np.testing.assert_allclose(
         mesh_sdf(face_tree(p, made.faces, closed=True), q), box_sdf(q, HALF), atol=1e-12
@@ -70,7 +73,9 @@ def test_a_box_of_twelve_triangles_has_the_boxs_distances():
 
 
 def test_distances_move_with_the_mesh():
-    made, q, R = surfaces.torus(300, 0.6, 0.25), some(200, 4), exp_so3(np.array([0.3, -1.0, 2.0]))
+    made = surfaces.torus(300, 0.6, 0.25)
+    q = some(200, 4)
+    R = exp_so3(np.array([0.3, -1.0, 2.0]))
     here = mesh_sdf(face_tree(made.p, made.faces, closed=True), q)
     there = mesh_sdf(face_tree(made.p @ R.T + 3, made.faces, closed=True), q @ R.T + 3)
     np.testing.assert_allclose(here, there, atol=1e-12)

@@ -80,7 +80,8 @@ def test_one_pixel_costs_more_the_further_away():
 
 @given(st.floats(0.5, 50), st.floats(100, 2000), st.floats(0.02, 1.0))
 def test_the_uncertainty_is_the_slope_of_depth(depth, f, baseline):
-    d, h = disparity_from_depth(np.array([depth]), f, baseline), 1e-6
+    d = disparity_from_depth(np.array([depth]), f, baseline)
+    h = 1e-6
     slope = (
         depth_from_disparity(d - h, f, baseline) - depth_from_disparity(d + h, f, baseline)
     ) / (2 * h)

@@ -21,7 +21,8 @@ seeds = st.integers(0, 2**32 - 1)
 @given(seed=seeds)
 def test_exact_pixels_give_the_points_in_both_ways(seed):
     T, p, uv_first, uv_second = pair(seed)
-    P, Q = camera_matrix(K, np.eye(4)), camera_matrix(L, T)
+    P = camera_matrix(K, np.eye(4))
+    Q = camera_matrix(L, T)
     np.testing.assert_allclose(triangulate(P, Q, uv_first, uv_second), p, atol=1e-7)
     np.testing.assert_allclose(triangulate(-3 * P, 0.1 * Q, uv_first, uv_second), p, atol=1e-7)
     np.testing.assert_allclose(
@@ -32,8 +33,11 @@ def test_exact_pixels_give_the_points_in_both_ways(seed):
 
 def test_covariances_are_what_repetition_shows():
     T = motion(np.eye(3), np.array([-1.0, 0.0, 0.0]))
-    P, Q = camera_matrix(K, np.eye(4)), camera_matrix(K, T)
-    p, n, sigma = np.array([0.5, -0.3, 8.0]), 4000, 0.5
+    P = camera_matrix(K, np.eye(4))
+    Q = camera_matrix(K, T)
+    p = np.array([0.5, -0.3, 8.0])
+    n = 4000
+    sigma = 0.5
     rng = np.random.default_rng(0)
     uv = [np.divide(*np.split(p_h, [2])) for p_h in (P @ [*p, 1], Q @ [*p, 1])]
     found = triangulate(P, Q, *(x + sigma * rng.normal(size=(n, 2)) for x in uv))
@@ -45,7 +49,9 @@ def test_covariances_are_what_repetition_shows():
 
 
 def test_depth_errors_go_with_one_over_the_baseline_and_some_land_behind():
-    P, p, rng = camera_matrix(K, np.eye(4)), np.array([0.0, 0.0, 8.0]), np.random.default_rng(1)
+    P = camera_matrix(K, np.eye(4))
+    p = np.array([0.0, 0.0, 8.0])
+    rng = np.random.default_rng(1)
     spread, behind = {}, {}
     for baseline in (1.0, 0.5, 0.02):
         Q = camera_matrix(K, motion(np.eye(3), np.array([-baseline, 0.0, 0.0])))
@@ -63,7 +69,8 @@ def test_depth_errors_go_with_one_over_the_baseline_and_some_land_behind():
 
 def test_parallel_rays_have_no_point_and_no_covariance():
     T = motion(np.eye(3), np.array([-1.0, 0.0, 0.0]))
-    P, Q = camera_matrix(K, np.eye(4)), camera_matrix(K, T)
+    P = camera_matrix(K, np.eye(4))
+    Q = camera_matrix(K, T)
     uv = np.array([[512.0, 341.0]])
     far = triangulate(P, Q, uv, uv)
     assert not np.isfinite(far).all() or np.abs(far).max() > 1e9
@@ -76,6 +83,7 @@ def test_parallel_rays_have_no_point_and_no_covariance():
 def test_opencv_triangulates_alike():
     cv2 = pytest.importorskip("cv2")
     T, _, uv_first, uv_second = pair(3, 60, 0.5)
-    P, Q = camera_matrix(K, np.eye(4)), camera_matrix(L, T)
+    P = camera_matrix(K, np.eye(4))
+    Q = camera_matrix(L, T)
     x = cv2.triangulatePoints(P, Q, uv_first.T, uv_second.T)
     np.testing.assert_allclose(triangulate(P, Q, uv_first, uv_second), (x[:3] / x[3]).T, atol=0.03)

@@ -52,7 +52,8 @@ def test_where_solids_overlap_the_winding_is_two():
 
 def test_counts_are_those_of_the_surface_around_the_cells():
     rng = np.random.default_rng(3)
-    bits, spacing = rng.random((5, 6, 4)) < 0.4, np.array([1.0, 0.5, 2.0])
+    bits = rng.random((5, 6, 4)) < 0.4
+    spacing = np.array([1.0, 0.5, 2.0])
     grid = Grid(np.array([3.0, -1.0, 0.0]), spacing, bits.shape)
     p, faces = counted_surface(bits, grid)
     assert encloses(faces)
@@ -61,7 +62,8 @@ def test_counts_are_those_of_the_surface_around_the_cells():
 
 
 def test_one_cell():
-    bits, spacing = np.ones((1, 1, 1), bool), np.array([1.0, 2.0, 3.0])
+    bits = np.ones((1, 1, 1), bool)
+    spacing = np.array([1.0, 2.0, 3.0])
     assert counted_volume(bits, spacing) == 6
     assert counted_area(bits, spacing) == 2 * (2 + 3 + 6)
     p, faces = counted_surface(bits, Grid(np.zeros(3), spacing, (1, 1, 1)))
@@ -73,7 +75,8 @@ def test_one_cell():
 
 
 def test_no_cell_at_all():
-    bits, grid = np.zeros((2, 2, 2), bool), Grid(np.zeros(3), np.ones(3), (2, 2, 2))
+    bits = np.zeros((2, 2, 2), bool)
+    grid = Grid(np.zeros(3), np.ones(3), (2, 2, 2))
     assert counted_volume(bits, grid.spacing) == counted_area(bits, grid.spacing) == 0
     assert len(counted_surface(bits, grid)[1]) == 0
     with pytest.raises(ValueError, match="no cell"):

@@ -70,7 +70,8 @@ class Seen:
 
 def seen(params: Input, **slots: Any) -> Iterator[Seen]:
     """Walk through a run in space."""
-    subject, past = setup(params), ()
+    subject = setup(params)
+    past = ()
     assert isinstance(subject, Scans)
     for state in run(params, subject, **slots):
         yield Seen(Look(params=params, subject=subject, now=state, past=past))

@@ -292,7 +292,8 @@ def test_leaving_out():
 def test_the_view_that_is_clicked_is_shown():
     shown = states(Params(shown=5))[presets.POSES]
     assert shown.subject.views[shown.shown] == 5
-    scene, other = draw(shown), draw(states(Params())[presets.POSES])
+    scene = draw(shown)
+    other = draw(states(Params())[presets.POSES])
     picture, another = scene["picture"], other["picture"]
     assert isinstance(picture, Picture)
     assert isinstance(another, Picture)
@@ -308,7 +309,8 @@ def test_corners_in_the_picture_lie_where_squares_meet():
     scene = draw(states(Params())[0])
     picture = scene["picture"]
     assert isinstance(picture, Picture)
-    image, subject = picture.rgb()[..., 0].astype(float), states(Params())[0].subject
+    image = picture.rgb()[..., 0].astype(float)
+    subject = states(Params())[0].subject
     inner = (subject.uv[0].reshape(6, 9, 2)[1:-1, 1:-1] + 0.5) / 2 - 0.5
     right, down = np.gradient(inner, axis=1), np.gradient(inner, axis=0)
     around = [inner + 0.4 * (a * right + b * down) for a, b in ((1, 1), (1, -1), (-1, -1))]

@@ -50,7 +50,8 @@ def test_the_left_camera(corners, shared_data):
     assert views.ending.worst == 1
     assert "69 % of the sum of squares" in caption_of(draw(views)).text
     scene = draw(last)
-    caption, picture = caption_of(scene), scene["picture"]
+    caption = caption_of(scene)
+    picture = scene["picture"]
     assert caption.tone == "info"
     assert "Nobody knows the truth" in caption.text
     assert "map" not in scene

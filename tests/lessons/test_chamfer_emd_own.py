@@ -27,7 +27,8 @@ class TestSlots:
             "earth_movers": Candidate(plain_earth_movers, earth_movers),
             "one_sided": Candidate(brute_one_sided, one_sided),
         }
-        ours, theirs = flows(params), flows(params, **slots)
+        ours = flows(params)
+        theirs = flows(params, **slots)
         assert len(ours) == len(theirs)
         for one, two in zip(ours, theirs, strict=True):
             np.testing.assert_allclose(two.left.flow.p_moving, one.left.flow.p_moving, atol=1e-9)
@@ -48,7 +49,8 @@ class TestSlots:
 
     def test_a_wrong_earth_movers_leads_the_right_flow_elsewhere(self):
         params = Input(points=20, steps=40)
-        ours, wrong = flows(params), flows(params, earth_movers=by_index)
+        ours = flows(params)
+        wrong = flows(params, earth_movers=by_index)
         assert np.abs(wrong[-1].right.flow.p_moving - ours[-1].right.flow.p_moving).max() > 0.5
         home = (
             wrong[-1].right.flow.p_moving - wrong[-1].clouds.p_target
@@ -59,7 +61,8 @@ class TestSlots:
     @pytest.mark.parametrize("lowers", ["source to target", "target to source"])
     def test_one_sided_drives_the_left_flow_where_it_lowers_one_side(self, lowers):
         params = Input(points=20, steps=5, lowers=lowers)
-        ours, right = flows(params), flows(params, one_sided=brute_one_sided)
+        ours = flows(params)
+        right = flows(params, one_sided=brute_one_sided)
         wrong = flows(params, one_sided=lambda p_a, p_b: brute_one_sided(p_b, p_a))
         other = flows(replace(params, lowers=OTHER_SIDE[lowers]))
         for one, two, three, four in zip(ours, right, wrong, other, strict=True):
@@ -70,7 +73,8 @@ class TestSlots:
     @pytest.mark.parametrize("name", ["unequal", "doubled"])
     def test_a_right_answer_flows_as_ours_does_where_counts_differ(self, name):
         params = replace(lesson.preset(name).params, steps=4)
-        ours, theirs = flows(params), flows(params, earth_movers=earth_movers_of_copies)
+        ours = flows(params)
+        theirs = flows(params, earth_movers=earth_movers_of_copies)
         assert len(ours[0].clouds.p_source) != len(ours[0].clouds.p_target)
         for one, two in zip(ours, theirs, strict=True):
             np.testing.assert_allclose(two.right.flow.p_moving, one.right.flow.p_moving, atol=1e-9)
@@ -109,10 +113,8 @@ class TestOwnClouds:
     def test_two_files_are_scaled_together(self, tmp_path):
         rng = np.random.default_rng(0)
         p = 500.0 + 100.0 * rng.random((300, 3))
-        target, source = (
-            self.write(tmp_path, "a.xyz", p),
-            self.write(tmp_path, "b.xyz", p[:200] + np.array([30.0, 0, 0])),
-        )
+        target = self.write(tmp_path, "a.xyz", p)
+        source = self.write(tmp_path, "b.xyz", p[:200] + np.array([30.0, 0, 0]))
         params = Input(target=target, source=source, points=50, source_points=40, steps=5)
         found = states(params)
         clouds = found[0].clouds
@@ -160,6 +162,7 @@ class TestOwnClouds:
         params = Input(
             target=folder / "bun000.ply", source=folder / "bun045.ply", points=100, steps=20
         )
-        first, last = states(params)[0], states(params)[-1]
+        first = states(params)[0]
+        last = states(params)[-1]
         assert last.right.numbers.earth_movers < 0.3 * first.right.numbers.earth_movers
         assert last.left.numbers.chamfer < 0.3 * first.left.numbers.chamfer

@@ -65,7 +65,8 @@ def test_a_mount_locks_at_the_zenith_as_the_page_says():
     assert lesson.page is not None
     page = lesson.page.read_text(encoding="utf-8")
     for tilt, said in ((45, "0.71 at 45°"), (89, "0.017 at 89°"), (90, "0 at 90°")):
-        at, d = np.radians(tilt), 1e-5
+        at = np.radians(tilt)
+        d = 1e-5
         J = np.column_stack(
             [
                 (direction(0.3 + d, at) - direction(0.3 - d, at)) / (2 * d),

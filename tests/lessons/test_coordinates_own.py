@@ -76,7 +76,8 @@ def test_objects_without_depth_are_refused(tmp_path, content, words):
 
 
 def test_a_changed_file_is_read_anew(tmp_path):
-    path, rng = tmp_path / "one.npy", np.random.default_rng(0)
+    path = tmp_path / "one.npy"
+    rng = np.random.default_rng(0)
     np.save(path, rng.normal(size=(50, 3)))
     first = steps(Params(stage="project", cloud=path))[0].subject
     assert steps(Params(stage="project", cloud=path))[0].subject is first

@@ -56,7 +56,8 @@ def test_a_ring_unfolds_from_the_surface_and_bends_no_triangle():
         np.testing.assert_allclose(folded[-1], folded[1], atol=1e-9)
         for share in (0.0, 0.3, 0.9):
             p = part(Mesh, ring.flattened(now, share), "flat ring").p
-            turned, n = np.concatenate([[0.0], np.cumsum(now.angles)]), now.normals[now.vertex]
+            turned = np.concatenate([[0.0], np.cumsum(now.angles)])
+            n = now.normals[now.vertex]
             overlaps = now.defects[now.vertex] < 0
             spokes = (
                 p[1:] - p[0] - 0.02 * overlaps * share * ring.edge_length(now) * np.outer(turned, n)

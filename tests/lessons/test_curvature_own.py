@@ -105,7 +105,8 @@ BALL = trimesh.creation.icosphere(1)
 def test_awkward_meshes_are_mended_and_the_caption_says_how(tmp_path, p, faces, words, chi):
     params = written(tmp_path, p, faces)
     run = timeline(params)
-    start, total = states(params)[0], states(params)[-1]
+    start = states(params)[0]
+    total = states(params)[-1]
     said = caption_of(run[0].scene).text
     assert f"Mended: {words}." in said if words else "Mended" not in said
     assert total.now.chi == chi
@@ -139,7 +140,8 @@ def test_an_own_mesh_stands_upright_and_turns_its_broad_side_to_the_viewer(tmp_p
     params = written(tmp_path, *tower(lying))
     state = states(params)[0]
     assert state.subject.up == lying
-    p, eye = state.subject.p, np.array([*EYE[:2], 0.0]) / np.hypot(*EYE[:2])
+    p = state.subject.p
+    eye = np.array([*EYE[:2], 0.0]) / np.hypot(*EYE[:2])
     assert np.ptp(p[:, 2]) == pytest.approx(2.0)
     assert np.ptp(p @ eye) == pytest.approx(2 / 3)  # the thin side is along the line of sight
     assert np.ptp(p @ np.cross(eye, [0, 0, 1])) == pytest.approx(4 / 3)

@@ -76,7 +76,8 @@ class TestPresets:
 
     def test_textureless_is_flat_and_wrong_at_a_low_cost(self):
         found = preset("textureless")
-        bare, home = found[LAST_CHOICE], states(replace(BARE, pixel=(20, 60)))[LAST_CHOICE]
+        bare = found[LAST_CHOICE]
+        home = states(replace(BARE, pixel=(20, 60)))[LAST_CHOICE]
         assert bare.stage is Stage.AGGREGATE
         assert off_in(found, bare, BARE_PART) > 0.9
         u, v = found.subject.pixel
@@ -110,7 +111,8 @@ class TestPresets:
 
     def test_occlusion(self):
         found = preset("occlusion")
-        state, seen = found[CHECKED], visible_in(found)
+        state = found[CHECKED]
+        seen = visible_in(found)
         assert state.stage is Stage.CHECK
         u, v = found.subject.pixel
         assert not seen[v, u]
@@ -119,8 +121,11 @@ class TestPresets:
         assert np.isnan(state.disparity[~seen]).mean() == pytest.approx(0.8, abs=0.03)
 
     def test_window_21_fattens(self):
-        small, found = preset("window-3")[LAST_CHOICE], preset("window-21")
-        large, truth, seen = found[LAST_CHOICE], truth_of(found), visible_in(found)
+        small = preset("window-3")[LAST_CHOICE]
+        found = preset("window-21")
+        large = found[LAST_CHOICE]
+        truth = truth_of(found)
+        seen = visible_in(found)
         assert small.wrong == pytest.approx(1 / 3, abs=0.03)
         assert large.wrong < small.wrong / 3.5
         wall = np.isclose(truth, 150 * 0.1 / 2.6) & seen
@@ -225,7 +230,8 @@ class TestPage:
         predicted, measured = scene["error/predicted"], scene["error/measured"]
         assert isinstance(predicted, Curve)
         assert isinstance(measured, Curve)
-        near, far = measured.x < 1.5, measured.x > 2.2
+        near = measured.x < 1.5
+        far = measured.x > 2.2
         growth = np.median(measured.y[far]) / np.median(measured.y[near])
         assert 2.0 < growth < 8.0
         at = np.interp(4.0, predicted.x * 4.0 / predicted.x[-1], predicted.y)
@@ -282,7 +288,8 @@ class TestPicture:
 
     def test_the_row_crosses_both_pictures_and_holds_the_pixel_and_its_partner(self):
         for name, beside in (("spheres", 0), ("rows-off", ROWS_OFF)):
-            params, found = lesson.preset(name).params, preset(name)
+            params = lesson.preset(name).params
+            found = preset(name)
             scene = timeline(params)[LAST_CHOICE].scene
             left, right, row = (scene[path] for path in ("left/picture", "right/picture", "row"))
             assert isinstance(left, Picture)
@@ -305,7 +312,8 @@ class TestPicture:
 
     def test_whatever_the_depth_it_fits_the_stage_and_is_measured_in_metres(self):
         for params in (HOME, BOARDS, MOTORCYCLE):
-            scene, scale = timeline(params)[LAST].scene, states(params).subject.scale
+            scene = timeline(params)[LAST].scene
+            scale = states(params).subject.scale
             assert isinstance(scene["cloud"], Points)
             assert 1.2 < scene["cloud"].p[:, 1].max() < 2.31
             marks = [one for path, one in scene.items() if path.startswith("label/depth")]

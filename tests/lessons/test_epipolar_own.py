@@ -66,7 +66,8 @@ def test_matches_alone_have_white_pictures(tmp_path):
     found: list[Any] = list(
         run(Params(own_matches=tmp_path / "m.txt", intrinsics=tmp_path / "k.txt"))
     )
-    T, true = found[-1].now.T_second_first, views.T_second_first
+    T = found[-1].now.T_second_first
+    true = views.T_second_first
     assert true is not None
     np.testing.assert_allclose(T[:3, :3], true[:3, :3], atol=0.02)
     scene = draw(found[0])

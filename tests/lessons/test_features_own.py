@@ -115,7 +115,8 @@ def test_own_pictures_are_matched_and_refused(tmp_path):
 @pytest.mark.parametrize("start", range(2))
 def test_bunny_scans_come_home_from_any_start(shared_data, tmp_path, start):
     """The benchmark tries twenty starts."""
-    folder, rng = shared_data / "icp", np.random.default_rng(100 + start)
+    folder = shared_data / "icp"
+    rng = np.random.default_rng(100 + start)
     files = folder / "bun000.ply", folder / "bun045.ply"
     T = motion(exp_so3(2 * rng.normal(size=3)), 0.1 * rng.normal(size=3))
     np.savez(tmp_path / "source.npz", p=moved(T, read_cloud(files[1])))
@@ -152,7 +153,8 @@ def kept_near_lines(F, uv, descriptors, ratio):
     """How many matches each filter keeps of two pictures, and the share of them within 2 px of
     their true line.
     """
-    near, found = nearest_both_ways(*descriptors), {}
+    near = nearest_both_ways(*descriptors)
+    found = {}
     for how in ("nearest", "ratio", "mutual", "both"):
         first, second = filtered(near, how, ratio).T
         a, b = (np.column_stack([at, np.ones(len(at))]) for at in (uv[0][first], uv[1][second]))

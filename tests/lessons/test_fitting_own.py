@@ -118,7 +118,8 @@ def test_a_kinect_plane_has_errors_that_are_alike(shared_data):
             normal /= np.linalg.norm(normal)
             count = int((np.abs((some - a) @ normal) < 0.015).sum())
             if count > votes:
-                best, votes = np.append(normal, -normal @ a), count
+                best = np.append(normal, -normal @ a)
+                votes = count
     for _ in range(4):
         best = fit_hyperplane(p[np.abs(p @ best[:3] + best[3]) < 0.02])
     q = p[np.abs(p @ best[:3] + best[3]) < 0.02]

@@ -90,7 +90,8 @@ def test_the_bridge_is_found_between_equal_halves(seed):
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_the_sign_is_not_the_best_cut(seed):
     params = dataclasses.replace(preset("unbalanced"), seed=seed)
-    sign, best = cut(params, SIGN), cut(params)
+    sign = cut(params, SIGN)
+    best = cut(params)
     assert 24 <= sign.cut <= 49
     assert 4 <= best.cut <= 6
     assert 0.03 < sign.conductance < 0.08
@@ -168,7 +169,8 @@ def test_the_club():
 
 def test_the_rabbit_is_thin_at_its_neck():
     state = states(preset("neck"))[-1]
-    side, p = cut(preset("neck")).side, state.subject.p
+    side = cut(preset("neck")).side
+    p = state.subject.p
     head = side if side.sum() < len(side) / 2 else ~side
     assert p[head, 2].min() > 0.1  # head and ears, in front and above
     assert p[head, 0].mean() > 0.2

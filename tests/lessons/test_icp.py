@@ -169,7 +169,8 @@ class TestBasin:
         experiment.
         """
         for angle, k in ((30, 2), (120, 8)):
-            own, tried = end(until_stop(replace(HOME, start_angle=float(angle)))), tries("home")[k]
+            own = end(until_stop(replace(HOME, start_angle=float(angle))))
+            tried = tries("home")[k]
             assert tried.start_angle == angle
             assert tried.error.rotation == pytest.approx(own.error.rotation, abs=1e-6)
             assert tried.rmse == pytest.approx(own.icp.rmse, abs=1e-9)
@@ -180,7 +181,8 @@ class TestBasin:
         )
 
     def test_it_grows_by_one_start_a_step_and_does_not_depend_on_the_start(self):
-        here, far = states(HOME), states(lesson.preset("far").params)
+        here = states(HOME)
+        far = states(lesson.preset("far").params)
         assert [len(s.tries) for s in here[-len(ANGLES) :]] == list(range(1, len(ANGLES) + 1))
         np.testing.assert_array_equal(
             [t.error.rotation for t in here[-1].tries], [t.error.rotation for t in far[-1].tries]
@@ -192,10 +194,8 @@ class TestBasin:
         assert "of its points" not in caption(HOME, -1).text
 
     def test_it_shows_where_the_last_try_ended(self):
-        state, shown = (
-            states(lesson.preset("far").params)[-1],
-            scene(lesson.preset("far").params, -1)["source"],
-        )
+        state = states(lesson.preset("far").params)[-1]
+        shown = scene(lesson.preset("far").params, -1)["source"]
         attempt = state.tries[-1]
         placed = apply(shown.T_world_object, shown.p)
         home = apply(true(state), shown.p)
@@ -235,10 +235,13 @@ class TestPicture:
 
     def test_matches_end_at_the_points_they_join(self):
         for k in range(4):
-            now, shown = states(HOME)[k].icp, scene(HOME, k)
-            ends, source = shown["matches"].ends, shown["source"]
+            now = states(HOME)[k].icp
+            shown = scene(HOME, k)
+            ends = shown["matches"].ends
+            source = shown["source"]
             rows = slice(None, None, 30)  # 1,500 are too many to be drawn
-            p, kept = apply(source.T_world_object, source.p[rows]), now.kept[rows]
+            p = apply(source.T_world_object, source.p[rows])
+            kept = now.kept[rows]
             np.testing.assert_allclose(ends[:, 0], p, atol=1e-12)
             q = shown["target"].p[now.indices[rows]]
             np.testing.assert_allclose(ends[kept, 1], q[kept], atol=1e-12)

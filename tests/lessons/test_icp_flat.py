@@ -72,7 +72,8 @@ class TestNumbers:
         assert ends(75.0, fit="point-to-plane").stop.name == "CIRCLING"
 
     def test_no_partner_lies_inside_the_circle(self):
-        shown, lines = scene("from-45", 0), outlines(lesson.preset("from-45").params)
+        shown = scene("from-45", 0)
+        lines = outlines(lesson.preset("from-45").params)
         ring = shown["ring/circle"].ends[:, 0][:, [0, 2]]
         middle = ring.mean(axis=0)
         radius = np.linalg.norm(ring[0] - middle)
@@ -85,7 +86,8 @@ class TestLandscape:
     def test_the_ball_is_on_the_curve_at_a_match_and_on_the_frozen_one_at_a_fit(self):
         for k in (0, 1, 2, 3, 20):
             shown = scene("from-45", k)
-            ball, curve = shown["cost/ball"], shown["cost/" + ("frozen" if k % 2 else "curve")]
+            ball = shown["cost/ball"]
+            curve = shown["cost/" + ("frozen" if k % 2 else "curve")]
             assert np.interp(ball.x[0], curve.x, curve.y) == pytest.approx(ball.y[0], abs=0.5)
 
     def test_the_frozen_curve_is_nowhere_below_the_true_one(self):
@@ -108,7 +110,8 @@ class TestLandscape:
 
     def test_the_drawing_turns_as_the_ball_moves(self):
         """Seen from +y, x runs to the left: a turn to the right is to the right on the chart."""
-        shown, lines = scene("from-45", 0), outlines(lesson.preset("from-45").params)
+        shown = scene("from-45", 0)
+        lines = outlines(lesson.preset("from-45").params)
         T = shown["source"].T_world_object
         p = shown["source"].p @ T[:3, :3].T + T[:3, 3]
         np.testing.assert_allclose(p[:, [0, 2]], turned(lines.p_source, 45.0), atol=1e-12)

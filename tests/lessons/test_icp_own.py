@@ -45,7 +45,8 @@ class TestOwnScans:
         p = scene(two_files, 0)["target"].p
         assert 1.0 < (p.max(axis=0) - p.min(axis=0)).max() < 1.5
         assert np.abs((p.max(axis=0) + p.min(axis=0)) / 2).max() < 0.1
-        state, source = states(two_files)[-1], scene(two_files, -1)["source"]
+        state = states(two_files)[-1]
+        source = scene(two_files, -1)["source"]
         gap = np.linalg.norm(apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1)
         np.testing.assert_allclose(gap, state.scans.frame.scale * state.icp.distances, atol=1e-9)
 
@@ -54,14 +55,16 @@ class TestOwnScans:
     )
     def test_they_stand_upright(self, two_files, up, axis):
         params = replace(two_files, up=up)
-        scans, shown = states(params)[0].scans, scene(params, 0)
+        scans = states(params)[0].scans
+        shown = scene(params, 0)
         middle = scans.p_target.mean(axis=0)
         above = int(np.argmax(scans.p_target @ axis))
         height = (scans.p_target[above] - middle) @ axis
         p = shown["target"].p
         assert p[above, 2] - p[:, 2].mean() == pytest.approx(scans.frame.scale * height)
         for k in (0, -1):
-            state, source = states(params)[k], scene(params, k)["source"]
+            state = states(params)[k]
+            source = scene(params, k)["source"]
             gap = np.linalg.norm(
                 apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1
             )
@@ -273,10 +276,8 @@ class TestRings:
     def pair(
         self, scene: Street, rng: np.random.Generator
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        T, sensor = (
-            self.motion(rng),
-            motion(exp_so3(np.array([0, 0, 0.2])), np.array([0.0, 0.0, 1.73])),
-        )
+        T = self.motion(rng)
+        sensor = motion(exp_so3(np.array([0, 0, 0.2])), np.array([0.0, 0.0, 1.73]))
         return lidar_scan(scene, sensor, rng), lidar_scan(scene, sensor @ T, rng), T
 
     @pytest.mark.parametrize(

@@ -65,10 +65,8 @@ def test_half_the_angle_is_cut_as_well_and_a_loss_that_knows_turns_only_moves_th
 
 
 def test_more_updates_make_the_cut_narrower_not_lower():
-    few, many = (
-        wrong_by(end("cut")),
-        wrong_by(last_of(replace(lesson.preset("cut").params, updates=1200))),
-    )
+    few = wrong_by(end("cut"))
+    many = wrong_by(last_of(replace(lesson.preset("cut").params, updates=1200)))
     assert (many > 20).mean() < (few > 20).mean()
     assert many.max() > 150
 

@@ -171,13 +171,16 @@ def test_intervals_hold_the_truth_about_as_often_as_they_say():
 
 def test_who_looks_at_every_step_sees_the_truth_outside_in_most_runs():
     """Whole runs by the lesson itself, beside the shares that its last caption tells."""
-    params, ever, at_last = lesson.preset("throws").params, 0, 0
+    params = lesson.preset("throws").params
+    ever = 0
+    at_last = 0
     for seed in range(120):
         last = list(run(replace(params, seed=seed)))[-1].now
         assert isinstance(last, Throws)
         values, errors = np.array(last.estimates.values), np.array(last.estimates.errors)
         outside = np.abs(values - 4 * np.pi / 3) > 1.96 * errors
-        ever, at_last = ever + outside.any(), at_last + outside[-1]
+        ever = ever + outside.any()
+        at_last = at_last + outside[-1]
     assert (ever, at_last) == (69, 4)  # 57 % and 3 %
     now, at_any_step = of("throws")[-1].peeked
     assert now == pytest.approx(0.05, abs=0.01)

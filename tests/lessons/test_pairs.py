@@ -151,7 +151,8 @@ class TestSpace:
 
     def test_the_mark_of_wrong_partners_is_where_the_run_ends(self):
         for name in ("half-wrong-pairs", "together"):
-            shown, found = scene(name, 5), preset(name)
+            shown = scene(name, 5)
+            found = preset(name)
             error = found.subject.degrees_off(found[5].now.T_target_source)
             assert shown["wrong/mark"].y[0] == pytest.approx(error)
             assert shown["rotation error"].value == pytest.approx(error)
@@ -184,7 +185,8 @@ class TestSpace:
     def test_bands_end_at_their_points(self):
         for k in (0, 3, 6):
             shown = scene("pairs", k)
-            T, p = shown["source"].T_world_object, shown["source"].p[:: -(-1500 // 80)]
+            T = shown["source"].T_world_object
+            p = shown["source"].p[:: -(-1500 // 80)]
             ends = shown["bands"].ends
             np.testing.assert_allclose(ends[:, 0], p @ T[:3, :3].T + T[:3, 3], atol=1e-9)
 

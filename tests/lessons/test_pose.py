@@ -141,7 +141,8 @@ def street(**knobs: Any) -> Params:
 
 def test_the_street_is_known_by_its_map_and_seen_by_a_camera_in_it():
     found = states(street())
-    subject, last = found[0].subject, phase(found, "stop")
+    subject = found[0].subject
+    last = phase(found, "stop")
     assert len(subject.p_shown) == 20
     assert np.linalg.norm(np.array(Params().camera) - centre(subject.T_true)) < 1e-9
     u, v = subject.given.uv.T

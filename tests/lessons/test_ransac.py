@@ -82,7 +82,8 @@ def test_the_inlier_distances_that_are_set_keep_95_percent_of_the_inliers():
 def test_only_about_nine_percent_of_the_clean_samples_reach_nine_tenths_of_the_inliers():
     params = Input()
     assert params.inlier_distance == 2 * params.noise
-    subject, rng = rows_of(params), np.random.default_rng(0)
+    subject = rows_of(params)
+    rng = np.random.default_rng(0)
     clean = np.flatnonzero(members(subject))
     planes = PLANE.solve(subject.p[rng.choice(clean, (4000, 3))])
     reached = (PLANE.distances(planes, subject.p[clean]) <= params.inlier_distance).mean(axis=1)
@@ -157,7 +158,8 @@ def test_the_largest_plane_wins():
     assert wall
     assert best_error(states) > 0.5
     assert not ends_right(states)
-    on_table, on_wall = np.count_nonzero(members(states.subject)), best(last).count
+    on_table = np.count_nonzero(members(states.subject))
+    on_wall = best(last).count
     assert on_wall == pytest.approx(2 * on_table, rel=0.1)
 
 

@@ -64,7 +64,8 @@ def test_the_volume_of_bits_converges_and_area_and_normals_do_not():
 
 
 def test_distances_beat_bits_by_an_order():
-    bits, stored = of("binary")[-1], states(Params())[-1]
+    bits = of("binary")[-1]
+    stored = states(Params())[-1]
     assert slope(bits, 2) == pytest.approx(-1 / 3, abs=0.08)
     assert slope(stored) == pytest.approx(-2 / 3, abs=0.06)
     assert stored.surface.area == pytest.approx(0.996, abs=0.001)
@@ -186,7 +187,8 @@ def test_a_network_learns_a_torus_in_six_kilobytes():
 
 
 def test_without_waves_it_stays_behind_and_the_clamp_can_kill_it():
-    plain, waves = of("plain")[-1], states(Params(form="neural"))[-1]
+    plain = of("plain")[-1]
+    waves = states(Params(form="neural"))[-1]
     assert [plain.surface.mean, waves.surface.mean] == pytest.approx([0.078, 0.019], abs=0.0005)
     dead = of("clamp")
     assert len(dead[-1].surface.faces) == 0

@@ -47,7 +47,8 @@ def test_the_course_is_told_in_six_chapters():
 def test_a_lesson_without_a_chapter_stands_behind_them_all():
     assert chapter_of("") is MORE
     assert chapter_of("move") is MORE
-    theirs, ours = replace(fake.lesson, order=1), course()["learning"]
+    theirs = replace(fake.lesson, order=1)
+    ours = course()["learning"]
     assert place_of(ours) < place_of(theirs)
     assert place_of(replace(theirs, chapter="Learn")) < place_of(ours), "there its order counts"
     html = course_page({**catalog(), "fake": theirs})

@@ -57,7 +57,8 @@ def test_what_the_checks_found_is_said_in_the_words_of_the_terminal(exercise):
 
 @pytest.mark.parametrize("name", ["point_to_plane_step", "match"])
 def test_a_watched_file_is_told_of_the_run_that_calls_it(name):
-    exercise, lesson = exercises()[name], catalog()["icp"]
+    exercise = exercises()[name]
+    lesson = catalog()["icp"]
     page = watched_html(exercise, "mine.py", lesson, address=lambda run: f"?run={run}")
     calling, idle = page.partition('data-called="false"')[::2]
     assert "drives this lesson" in calling

@@ -104,7 +104,8 @@ class Links(HTMLParser):
 
     def __init__(self, address: str):
         super().__init__()
-        self.base, self.found = address, []
+        self.base = address
+        self.found = []
 
     def handle_starttag(self, tag, attrs):
         given = dict(attrs)

@@ -41,7 +41,8 @@ def test_a_file_that_is_cut_short_is_refused(fake_file, tmp_path, share):
 
 
 def test_a_changed_byte_is_noticed_or_changes_nothing_that_is_read(fake_file, tmp_path):
-    data, whole = fake_file.read_bytes(), open_recording(fake_file)
+    data = fake_file.read_bytes()
+    whole = open_recording(fake_file)
     for place in range(40, len(data), len(data) // 25):
         damaged = tmp_path / "damaged.rrd"
         damaged.write_bytes(data[:place] + bytes([data[place] ^ 0x55]) + data[place + 1 :])

@@ -17,7 +17,8 @@ from workbench.run.timeline import Timeline
 from workbench.scene import Field, Points
 
 RNG = np.random.default_rng(0)
-P, COLORS = RNG.normal(size=(200, 3)), RNG.integers(0, 256, (200, 3), dtype=np.uint8)
+P = RNG.normal(size=(200, 3))
+COLORS = RNG.integers(0, 256, (200, 3), dtype=np.uint8)
 
 
 def scenes(steps: int = 8):
@@ -55,10 +56,8 @@ def test_a_gathered_cloud_shows_what_it_showed(tmp_path):
     shown = scenes()
     found = unions(shown)
     assert found.keys() == {"cloud"}
-    with_union, without = (
-        recorded(shown, tmp_path / "a.rrd", found),
-        recorded(shown, tmp_path / "b.rrd", {}),
-    )
+    with_union = recorded(shown, tmp_path / "a.rrd", found)
+    without = recorded(shown, tmp_path / "b.rrd", {})
     for k in range(len(shown)):
         assert there(with_union, k) == there(without, k)
     places = [

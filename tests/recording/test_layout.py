@@ -54,7 +54,8 @@ def test_a_recording_is_seen_the_way_round_in_which_the_page_shows_it(view):
         np.array(one.as_arrow_array().to_pylist()[0], float)
         for one in (eye.position, eye.look_target, eye.eye_up)
     )
-    away, page_away = position - target, view.seen_from() - np.array(view.target)
+    away = position - target
+    page_away = view.seen_from() - np.array(view.target)
     ahead, page_ahead = -away / np.linalg.norm(away), -page_away / np.linalg.norm(page_away)
     right, upwards = picture(ahead, viewer_up(ahead, eye_up))
     page_right, page_upwards = picture(page_ahead, np.array(view.up))

@@ -147,10 +147,8 @@ def test_points_that_move_by_themselves_are_sent_again(tmp_path):
 
 
 def test_a_scene_shown_twice_sends_nothing(tmp_path):
-    once, twice = (
-        recorded(SCENES[:1], tmp_path / "1.rrd"),
-        recorded(SCENES[:1] * 2, tmp_path / "2.rrd"),
-    )
+    once = recorded(SCENES[:1], tmp_path / "1.rrd")
+    twice = recorded(SCENES[:1] * 2, tmp_path / "2.rrd")
     assert len(rows(once)) == len(rows(twice))
 
 
@@ -173,10 +171,8 @@ def test_changed_classes_send_ids_and_no_places(tmp_path):
 def test_a_surface_that_gets_colours_forgets_its_own(tmp_path):
     """Rerun multiplies the colour of a surface with those of its vertices."""
     height = Field(fake.CORNERS[:, 2], -0.2, 0.2, "height", "m", "diverging")
-    plain, coloured = (
-        Mesh(fake.CORNERS, fake.FACES, "neutral"),
-        Mesh(fake.CORNERS, fake.FACES, height),
-    )
+    plain = Mesh(fake.CORNERS, fake.FACES, "neutral")
+    coloured = Mesh(fake.CORNERS, fake.FACES, height)
     path = recorded([{"m": plain}, {"m": coloured}, {"m": plain}], tmp_path / "a.rrd")
     kinds = [
         {"Mesh3D:albedo_factor", "Mesh3D:vertex_colors"} & set(shown_at(path, k)["/world/m"])
@@ -306,6 +302,7 @@ def rgb(color: int) -> tuple[int, int, int]:
 
 def test_a_picture_of_a_field_in_space_has_its_bar_in_the_legend():
     field = Field(np.zeros((2, 3)), 0.0, 31.0, "Disparity", "px")
-    standing, beside = Picture(field, width=1.0), Picture(field)
+    standing = Picture(field, width=1.0)
+    beside = Picture(field)
     assert legend_of({"map": standing, "map/beside": beside}) == ((), [field])
     assert legend_of({"map": beside}) == ((), [])  # it has a bar of its own

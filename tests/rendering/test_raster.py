@@ -83,8 +83,10 @@ def test_a_picture_has_each_pixel_in_its_place():
     seen = pixels({"a": Picture(image, width=2.0, T_world_object=VIEW.facing(0.0, 0.0))})
     focal = LENS.focal
     step = focal * 0.45 / 5
-    left, right = round(160 - step * 2), round(160 + step * 2)
-    top, low = round(100 - step * 2), round(100 + step * 2)
+    left = round(160 - step * 2)
+    right = round(160 + step * 2)
+    top = round(100 - step * 2)
+    low = round(100 + step * 2)
     assert seen[top, left, :3] == pytest.approx((255, 0, 0), abs=3)
     assert seen[low, right, :3] == pytest.approx((0, 0, 255), abs=3)
     assert seen[top, right, :3].max() < 3

@@ -73,7 +73,8 @@ def draw(state: State) -> Scene:
     tangent = height(state.x) + slope(state.x) * (X - state.x)
     hand = {"steps": "place"} if state.by_hand else {"knob": "start"}
     name = "by hand" if state.by_hand else f"Step {state.k}"
-    low, high = (-3.0, 0.18)
+    low = -3.0
+    high = 0.18
     return {
         "curve": Segments(np.stack([p[:-1], p[1:]], 1), "neutral", name="curve"),
         "ball": Points(

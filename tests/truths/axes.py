@@ -36,7 +36,8 @@ def moved(scans: Scans, state: State) -> np.ndarray:
 def turn_left(scans: Scans, state: State) -> float:
     """Degrees from the truth; NaN where no rotation is right, or the map is a mirror image."""
     assert state.outcome is not None
-    T, T_true = state.outcome.T_target_source, scans.T_target_source
+    T = state.outcome.T_target_source
+    T_true = scans.T_target_source
     if T_true is None or np.linalg.det(T[:3, :3]) < 0:
         return float("nan")
     return degrees(T[:3, :3], T_true[:3, :3])

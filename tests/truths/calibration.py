@@ -9,7 +9,8 @@ import numpy as np
 from lessons.calibration.state import State
 from workbench.algorithms.least_squares.board_adjustment import Adjustment
 
-K, LENS = np.array([[536.0, 0, 342], [0, 536, 236], [0, 0, 1]]), (-0.27, 0.05, 0.0015, -0.0005, 0.0)
+K = np.array([[536.0, 0, 342], [0, 536, 236], [0, 0, 1]])
+LENS = (-0.27, 0.05, 0.0015, -0.0005, 0.0)
 
 
 def bent(xy: np.ndarray, k1: float, k2: float, p1: float, p2: float, k3: float) -> np.ndarray:
@@ -67,7 +68,8 @@ def deviation_of_f(state: State) -> float:
     """The predicted deviation of fx, from a dense Jacobian by differences over all unknowns,
     weighted as the loss asks.
     """
-    now, subject = state.now.adjustment, state.subject
+    now = state.now.adjustment
+    subject = state.subject
     assert isinstance(now, Adjustment)
     p, uv = subject.p_board, subject.uv
     free = [i for i in range(9) if now.free[i]]
@@ -91,12 +93,14 @@ def deviation_of_f(state: State) -> float:
     slopes = np.stack(
         [(residuals(h) - residuals(-h)) / (2 * h.sum()) for h in np.diag(sizes)], axis=2
     )
-    unknowns, r = len(free) + 6 * len(uv), residuals(0 * sizes)
+    unknowns = len(free) + 6 * len(uv)
+    r = residuals(0 * sizes)
     J = np.zeros((*r.shape, unknowns))
     J[:, :, : len(free)] = slopes[:, :, : len(free)]
     for k in range(len(uv)):  # a pose moves its own view only
         J[k, :, len(free) + 6 * k : len(free) + 6 * (k + 1)] = slopes[k, :, len(free) :]
-    J, r = J.reshape(-1, unknowns), r.ravel()
+    J = J.reshape(-1, unknowns)
+    r = r.ravel()
     w = np.ones(len(uv) * len(p))
     if state.params.loss == "Cauchy":
         w = 1 / (1 + (r.reshape(-1, 2) ** 2).sum(axis=1) / state.params.corner**2)

@@ -29,7 +29,8 @@ def apart(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 def between_means(places: np.ndarray) -> float:
     """Metres from the mean of the numbers to the place below the mean of the vectors."""
-    p, q = units(places.mean(axis=0))[0], units(places).mean(axis=0)
+    p = units(places.mean(axis=0))[0]
+    q = units(places).mean(axis=0)
     return float(EARTH * np.arctan2(np.linalg.norm(np.cross(p, q)), p @ q))
 
 

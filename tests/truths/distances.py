@@ -18,10 +18,12 @@ def true_distances(state: State) -> np.ndarray:
     """
     s = state.subject
     assert s is not None
-    p, q = s.p, s.p[s.source]
+    p = s.p
+    q = s.p[s.source]
     if state.params.stage == "grid":
         assert s.tip is not None
-        tip, found = np.append(s.tip, 0.0), []
+        tip = np.append(s.tip, 0.0)
+        found = []
         for one in p:
             t = np.linspace(0, 1, 2001)
             crossing = one[0] != q[0] and 0 < (tip[0] - q[0]) / (one[0] - q[0]) < 1
@@ -70,11 +72,14 @@ def by_heat(p: np.ndarray, faces: np.ndarray, sources: np.ndarray, time: float) 
     """Distances (vertices, sources) by heat over a closed mesh, from the paper's formulas with sums
     over single corners.
     """
-    n, normals = len(p), np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
+    n = len(p)
+    normals = np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
     areas = np.linalg.norm(normals, axis=1) / 2
     rows, columns, values = [], [], []
     for k in range(3):
-        i, j, o = faces[:, (k + 1) % 3], faces[:, (k + 2) % 3], faces[:, k]
+        i = faces[:, (k + 1) % 3]
+        j = faces[:, (k + 2) % 3]
+        o = faces[:, k]
         u, v = p[i] - p[o], p[j] - p[o]
         half = (u * v).sum(axis=1) / np.linalg.norm(np.cross(u, v), axis=1) / 2
         rows += [i, j, i, j]

@@ -29,7 +29,8 @@ def errors(state: Any) -> tuple[float, float] | None:
     """By how many degrees rotation and direction are off; the second NaN where nothing moved; None
     where nobody knows.
     """
-    T, true = getattr(state.now, "T_second_first", None), state.views.T_second_first
+    T = getattr(state.now, "T_second_first", None)
+    true = state.views.T_second_first
     if T is None or true is None:
         return None
     moved = np.linalg.norm(true[:3, 3]) > 0
@@ -43,7 +44,8 @@ def sampson(F: np.ndarray, matches: np.ndarray) -> float:
     squares = []
     for u, v, s, t in matches:
         x, y = np.array([u, v, 1.0]), np.array([s, t, 1.0])
-        a, b = F @ x, F.T @ y
+        a = F @ x
+        b = F.T @ y
         squares.append((y @ F @ x) ** 2 / (a[0] ** 2 + a[1] ** 2 + b[0] ** 2 + b[1] ** 2))
     return float(np.sqrt(np.mean(squares)))
 
@@ -64,7 +66,8 @@ def rows_apart(state: Any) -> float:
     """The root mean square difference of rows after both cameras are turned, by rotating every
     ray.
     """
-    found, views = state.now.rectification, state.views
+    found = state.now.rectification
+    views = state.views
     rows = []
     for R, K, uv in (
         (found.R_rectified_first, state.K_first, views.matches[:, :2]),
@@ -79,7 +82,8 @@ def in_front(state: Any, T: np.ndarray) -> int:
     """How many matches the four equations put before both cameras, one at a time, by
     eigenvectors.
     """
-    P, Q = state.K_first @ np.eye(3, 4), state.K_second @ T[:3]
+    P = state.K_first @ np.eye(3, 4)
+    Q = state.K_second @ T[:3]
     count = 0
     for u, v, s, t in state.views.matches:
         A = np.array([u * P[2] - P[0], v * P[2] - P[1], s * Q[2] - Q[0], t * Q[2] - Q[1]])

@@ -63,7 +63,9 @@ def radius_deviation(state: Any, unknown: np.ndarray) -> float:
     """The standard deviation of R by the covariance, from a Jacobian by differences in all numbers,
     redundant ones too.
     """
-    name, p, h = state.subject.kind.name, state.subject.p, 1e-6
+    name = state.subject.kind.name
+    p = state.subject.p
+    h = 1e-6
     J = np.column_stack(
         [
             (distances(name, unknown + h * e, p) - distances(name, unknown - h * e, p)) / (2 * h)

@@ -37,7 +37,8 @@ def A(state: State) -> np.ndarray:
 
 def told(state: State) -> np.ndarray:
     """The class that each node is given, of a cut the better way round; -1 where none is."""
-    now, classes = state.now, state.subject.classes
+    now = state.now
+    classes = state.subject.classes
     if isinstance(now, Cut):
         side = now.side.astype(int)
         return (
@@ -84,9 +85,11 @@ def parts(adjacency: np.ndarray) -> list[int]:
     friends = [
         set(some.tolist()) for some in np.split(b, np.searchsorted(a, np.arange(1, len(adjacency))))
     ]
-    left, sizes = set(range(len(adjacency))), []
+    left = set(range(len(adjacency)))
+    sizes = []
     while left:
-        front, seen = {left.pop()}, 1
+        front = {left.pop()}
+        seen = 1
         while front:
             node = front.pop()
             near_by = friends[node] & left

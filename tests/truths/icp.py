@@ -107,7 +107,8 @@ def turned(p: np.ndarray, angle: float) -> np.ndarray:
 
 def flat_rmse(run: Run, k: int) -> float:
     """Of the step's own partners, metres."""
-    state, lines = run.states[k], run.subject
+    state = run.states[k]
+    lines = run.subject
     gaps = turned(lines.p_source, state.angle) - lines.p_target[state.partners]
     return float(np.sqrt((gaps**2).sum(axis=1).mean()))
 
@@ -122,12 +123,14 @@ def flat_right(run: Run, k: int) -> int:
 
 def flat_turn(run: Run, k: int) -> float:
     """Degrees by which the fit of a step must turn the source, by a search."""
-    before, lines = run.states[k - 1], run.subject
+    before = run.states[k - 1]
+    lines = run.subject
     q, n = lines.p_target[before.partners], lines.n_target[before.partners]
     p = turned(lines.p_source, before.angle)
     if run.params.fit == "point-to-plane":  # a small turn, to first order
         lever = np.column_stack([-p[:, 1], p[:, 0]])
-        a, b = (lever * n).sum(axis=1), ((q - p) * n).sum(axis=1)
+        a = (lever * n).sum(axis=1)
+        b = ((q - p) * n).sum(axis=1)
         return abs(float(np.degrees(np.linalg.lstsq(a[:, None], b, rcond=None)[0][0])))
 
     def cost(turn: float) -> float:

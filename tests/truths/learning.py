@@ -12,7 +12,8 @@ from scipy.spatial.transform import Rotation
 
 from lessons.learning import flatland
 
-CENTRES, RADII = flatland.DISCS[:, :2], flatland.DISCS[:, 2]
+CENTRES = flatland.DISCS[:, :2]
+RADII = flatland.DISCS[:, 2]
 
 
 def wrong_by(state: Any) -> np.ndarray:

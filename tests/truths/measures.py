@@ -36,7 +36,8 @@ def sums(state: State, rows: np.ndarray | slice = slice(None)) -> tuple[float, f
     """The area of some faces, and the determinants of their corners seen from the origin, over
     6.
     """
-    p, faces = state.subject.p, state.subject.faces[rows]
+    p = state.subject.p
+    faces = state.subject.faces[rows]
     a, b, c = (np.linalg.norm(p[faces[:, k]] - p[faces[:, k - 1]], axis=1) for k in range(3))
     half = (a + b + c) / 2
     heron = np.sqrt(np.maximum(half * (half - a) * (half - b) * (half - c), 0))

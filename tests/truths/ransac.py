@@ -20,7 +20,8 @@ def apart(model: str, estimate: np.ndarray, p: np.ndarray) -> np.ndarray:
     if model == "homography":
         moved = first @ estimate.T
         return np.linalg.norm(moved[:, :2] / moved[:, 2:] - p[:, 2:], axis=1)
-    lines, back = first @ estimate.T, second @ estimate
+    lines = first @ estimate.T
+    back = second @ estimate
     slope = np.square(lines[:, :2]).sum(1) + np.square(back[:, :2]).sum(1)
     return np.abs((second * lines).sum(1)) / np.sqrt(slope)
 
@@ -60,9 +61,12 @@ def enough_for(share: float, size: int, confidence: float) -> float:
     """Return the fewest draws of which one is clean with this confidence, by doubling and
     halving.
     """
-    clean, low, high = share**size, 0, 1
+    clean = share**size
+    low = 0
+    high = 1
     while 1.0 - (1.0 - clean) ** high < confidence:
-        low, high = high, 2 * high
+        low = high
+        high = 2 * high
     while high - low > 1:
         middle = (low + high) // 2
         low, high = (low, middle) if 1.0 - (1.0 - clean) ** middle >= confidence else (middle, high)
@@ -76,7 +80,9 @@ def most_trusted(run: Run, k: int) -> tuple[int, float]:
     At least twenty rows; a wrong model has each row beside the sample with 5 %, and so many or more
     with less than 5 %.
     """
-    best, m, found = run.states[k].best, run.subject.model.sample_size, (0, 0.0)
+    best = run.states[k].best
+    m = run.subject.model.sample_size
+    found = (0, 0.0)
     by_trust = sorted(range(len(best.inliers)), key=lambda row: -run.subject.quality[row])
     votes = [bool(best.inliers[row]) for row in by_trust]
     for n in range(20, len(votes) + 1):

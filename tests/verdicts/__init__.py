@@ -76,7 +76,8 @@ def untrue(text: str, claims: Sequence[Claim], run: Run, k: int) -> list[str]:
     """Return what a text says that does not hold, and what judges without a claim that could be
     checked.
     """
-    found, rest = [], text
+    found = []
+    rest = text
     for claim in claims:
         for match in re.finditer(claim.words, text):
             if claim.holds is not None and not claim.holds(run, k, match):

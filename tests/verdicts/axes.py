@@ -58,7 +58,8 @@ def by_rmse(run: Run, k: int, which: int) -> float:
 
 
 def right(run: Run, k: int) -> bool | None:
-    state, scans = run.states[k], run.subject
+    state = run.states[k]
+    scans = run.subject
     if isinstance(state, starts.Race):
         if not state.is_told:
             return None
@@ -93,7 +94,8 @@ def turned(run: Run, k: int) -> float:
 
 
 def counts(run: Run, k: int) -> float:
-    state, subject = run.states[k], run.subject
+    state = run.states[k]
+    subject = run.subject
     match moment(run, k):
         case "cloud":
             return len(subject.p_target)
@@ -137,7 +139,8 @@ def skewness(which: int) -> Any:
 
 
 def gap(run: Run, k: int) -> float:
-    state, scans = run.states[k], run.subject
+    state = run.states[k]
+    scans = run.subject
     if moment(run, k) != "frame":
         return to_nearest(scans, state)
     R = state.axes_target @ state.axes.T
@@ -153,7 +156,8 @@ def off(run: Run, k: int) -> float:
 
 
 def box(run: Run, k: int) -> float:
-    p, R = run.subject.p_source, run.subject.T_target_source[:3, :3]
+    p = run.subject.p_source
+    R = run.subject.T_target_source[:3, :3]
     along, own = (np.ptp(p @ axes, axis=0).prod() for axes in (run.states[k].axes, R.T))
     return float(along / own)
 

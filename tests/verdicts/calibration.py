@@ -18,7 +18,8 @@ from tests.verdicts import Claim, Run
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
-F, SIGMAS = 536.0, np.sqrt(2)
+F = 536.0
+SIGMAS = np.sqrt(2)
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -89,7 +90,8 @@ def _falls(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _least(run: Run, k: int, m: re.Match[str]) -> bool:
-    state, rms = run.states[k], rms_of(run.states[k])
+    state = run.states[k]
+    rms = rms_of(run.states[k])
     i = state.subject.views.index(int(m["view"]))
     others = np.delete(rms, i)
     share = 100 * rms[i] ** 2 / (rms**2).sum()
@@ -103,7 +105,8 @@ def _least(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _moved(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    f, other = float(state.now.K[0, 0]), float(state.ending.without.K[0, 0])
+    f = float(state.now.K[0, 0])
+    other = float(state.ending.without.K[0, 0])
     said = says(m["f"], f) and says(m["other"], other) and near(m["move"], abs(f - other))
     return (
         said and abs(number(m["times"]) * _deviation(state) / max(abs(f - other), 1e-9) - 1) < 0.07
@@ -112,7 +115,8 @@ def _moved(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _plus_minus(run: Run, k: int, m: re.Match[str]) -> bool:
     """The deviation to two digits, and f to no more than it bears out."""
-    K, sd = run.states[k].now.K, _deviation(run.states[k])
+    K = run.states[k].now.K
+    sd = _deviation(run.states[k])
     said = abs(number(m["sd"]) - sd) < 0.051 * 10 ** np.floor(np.log10(sd)) + 0.01 * sd
     return said and abs(number(m["f"]) - K[0, 0]) < max(0.051, 0.1 * sd)
 
@@ -219,7 +223,8 @@ def _determined(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _ratio(run: Run, k: int, m: re.Match[str]) -> bool:
-    off, sd = abs(_f(run) - F), _deviation(_end(run))
+    off = abs(_f(run) - F)
+    sd = _deviation(_end(run))
     return (
         near(m["off"], off)
         and abs(number(m["times"]) - off / sd) < 0.1

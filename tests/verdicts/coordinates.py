@@ -34,7 +34,8 @@ def largest_turn(run: Run, k: int, m: re.Match[str]) -> bool:
     """The largest change of the azimuth, from the points of the walk."""
     p = run.states[k].now.p
     directions = p[:, :2] / np.linalg.norm(p[:, :2], axis=1)[:, None]
-    a, b = directions[:-1], directions[1:]
+    a = directions[:-1]
+    b = directions[1:]
     turns = np.degrees(
         np.arctan2(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]), (a * b).sum(axis=1))
     )

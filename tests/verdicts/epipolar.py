@@ -66,7 +66,8 @@ def parallax(run: Run, k: int, m: re.Match[str]) -> bool:
     the second camera.
     """
     views = run.states[k].views
-    R, t = views.T_second_first[:3, :3], views.T_second_first[:3, 3]
+    R = views.T_second_first[:3, :3]
+    t = views.T_second_first[:3, 3]
     moves = []
     for p in views.p_first:
         near, far = (views.K_second @ (R @ q + t) for q in (p, 1e9 * p))

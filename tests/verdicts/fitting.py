@@ -55,7 +55,8 @@ def no_circle(run: Run, k: int, m: re.Match[str]) -> bool:
     one.
     """
     state = run.states[k]
-    unknown, line = state.now.now.unknown, straight(state.subject.p)
+    unknown = state.now.now.unknown
+    line = straight(state.subject.p)
     found = cost(state, unknown)
     if not (
         same(m[1], found)

@@ -80,7 +80,8 @@ def angle_close(said: str, true: float) -> bool:
 
 
 def stood_still(run: Run, k: int, _: re.Match[str]) -> bool:
-    before, now = run.states[k - 1], run.states[k]
+    before = run.states[k - 1]
+    now = run.states[k]
     if flat(run):
         return abs(now.angle - before.angle) <= 0.05
     p = run.subject.p_source
@@ -156,7 +157,8 @@ def rmse_of(run: Run, k: int) -> float:
     state = run.states[k]
     if isinstance(state, Try):
         return state.rmse
-    p, q = moved(state.T_target_source, run.subject.p_source), run.subject.p_target[state.indices]
+    p = moved(state.T_target_source, run.subject.p_source)
+    q = run.subject.p_target[state.indices]
     return float(np.sqrt(((p - q)[state.kept] ** 2).sum(axis=1).mean()))
 
 

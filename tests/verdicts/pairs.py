@@ -51,7 +51,8 @@ def rmse(run: Run, k: int) -> float:
 
 def off(run: Run, k: int = FLIP) -> float:
     """Degrees from the truth of the rotation in the map; NaN where there is none to compare."""
-    T, true = map_of(run, k), run.subject.T_target_source
+    T = map_of(run, k)
+    true = run.subject.T_target_source
     if true is None or np.linalg.det(T[:3, :3]) < 0:
         return float("nan")
     one, other = (
@@ -89,7 +90,8 @@ CAPTIONS = (
 
 
 def turn_in(run: Run, k: int) -> float:
-    before, now = map_of(run, k - 1)[:3, :3], map_of(run, k)[:3, :3]
+    before = map_of(run, k - 1)[:3, :3]
+    now = map_of(run, k)[:3, :3]
     return float(np.degrees(Rotation.from_matrix(now @ before.T).magnitude()))
 
 

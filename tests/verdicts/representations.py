@@ -68,7 +68,8 @@ def _edges(run: Run, k: int, m: re.Match[str]) -> bool:
         np.sort(np.column_stack([np.repeat(rows[:, 0], count), rows[:, 1:].ravel()]), axis=1),
         axis=0,
     )
-    n, ones = len(now.p), np.ones(len(pairs))
+    n = len(now.p)
+    ones = np.ones(len(pairs))
     pieces, _ = scipy.sparse.csgraph.connected_components(
         scipy.sparse.coo_array((ones, pairs.T), (n, n)), directed=False
     )
@@ -83,7 +84,8 @@ def _edges(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _bits(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    n, h = int(m[1]), 2 / int(m[1])
+    n = int(m[1])
+    h = 2 / int(m[1])
     middles = -1 + h * (np.arange(n) + 0.5)
     q = np.stack(np.meshgrid(middles, middles, middles, indexing="ij"), axis=-1).reshape(-1, 3)
     full = (distance(run.params, q) < 0).reshape(n, n, n)
@@ -155,7 +157,8 @@ def _searched(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _passed(run: Run, k: int, m: re.Match[str]) -> bool:
     now = run.states[k].now
-    tree, visit = now.tree, now.visits[-1]
+    tree = now.tree
+    visit = now.visits[-1]
     away = [
         np.linalg.norm(tree.p[tree.first[c] : tree.last[c]] - now.query, axis=1).min()
         for c in visit.passed

@@ -188,7 +188,8 @@ def test_after_an_answer_a_preset_has_the_file_of_the_command_line_again(tmp_pat
 
 
 def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_alone():
-    near, sparse = View(eye=(0.5, 0.5, 0.5)), View(grid=2.0)
+    near = View(eye=(0.5, 0.5, 0.5))
+    sparse = View(grid=2.0)
     lesson = replace(
         fake.lesson,
         presets=(

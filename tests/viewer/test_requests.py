@@ -27,7 +27,8 @@ def test_a_run_that_is_asked_for_at_once_does_not_lose_the_lesson_that_it_is_of(
 
 def test_what_is_opened_anew_makes_all_before_it_void():
     opened = {"verb": "open", "query": "?lesson=icp", "lesson": "icp"}
-    run, seek = {"verb": "run", "run": "far"}, {"verb": "seek", "k": 3}
+    run = {"verb": "run", "run": "far"}
+    seek = {"verb": "seek", "k": 3}
     assert waiting(opened, run, seek, opened) == ["open"]
     assert waiting(run, seek, {"verb": "run", "run": "plane"}) == ["run"]
 

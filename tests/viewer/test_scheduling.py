@@ -156,7 +156,8 @@ def test_a_run_that_nobody_looks_at_is_given_up(one, steered):
 
 def test_at_rest_a_run_is_computed_to_its_end_and_all_who_look_are_told(one, steered):
     steered.may.release(10_000)
-    run, told = steered.run_of(1, 40), [threading.Event() for _ in range(3)]
+    run = steered.run_of(1, 40)
+    told = [threading.Event() for _ in range(3)]
     for who, event in enumerate(told):
         one.want(who, run, 0, event.set)
     until(lambda: run.finished)
@@ -188,7 +189,8 @@ def test_while_people_wait_for_something_else_only_what_is_waited_for_is_compute
 
 @pytest.mark.parametrize("what", ["showing", "opening"])
 def test_while_pictures_of_other_runs_wait_a_step_is_shown_and_nothing_is_computed_at_rest(what):
-    runs, held = SharedRuns(threads=1), threading.Event()
+    runs = SharedRuns(threads=1)
+    held = threading.Event()
     crew = getattr(runs, what)
 
     async def asked() -> None:

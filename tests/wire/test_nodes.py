@@ -70,7 +70,8 @@ def world(p: np.ndarray, pose: Any) -> np.ndarray:
 @pytest.mark.parametrize("k", range(len(KINDS)))
 def test_equal_content_has_an_equal_key_and_other_content_another(k):
     copy = {path: replace(primitive) for path, primitive in KINDS[k].items()}  # type: ignore[type-var]
-    one, other = shown(KINDS[k]), shown(copy)
+    one = shown(KINDS[k])
+    other = shown(copy)
     assert {name: (kind.key, pose) for name, (kind, pose) in one.items()} == {
         name: (kind.key, pose) for name, (kind, pose) in other.items()
     }
@@ -270,7 +271,8 @@ def test_what_nobody_shows_any_more_is_let_go():
 
 
 def test_making_nodes_leaves_nothing_to_a_collection_of_garbage():
-    maker, scene = Maker(), Timeline(fake.lesson, fake.Params()).complete()[0].scene
+    maker = Maker()
+    scene = Timeline(fake.lesson, fake.Params()).complete()[0].scene
     gc.collect()
     gc.disable()
     try:
@@ -287,7 +289,9 @@ def test_who_asks_at_the_same_time_gets_the_same():
         [(name, kind.key, pose) for name, (kind, pose) in Maker().nodes(s, View()).items()]
         for s in scenes
     ]
-    maker, found, together = Maker(), [], threading.Barrier(8)
+    maker = Maker()
+    found = []
+    together = threading.Barrier(8)
 
     def ask(first: int) -> None:
         together.wait()

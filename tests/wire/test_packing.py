@@ -49,7 +49,8 @@ def test_what_is_packed_is_what_is_read():
 
 
 def test_a_step_sends_each_kind_and_array_once_and_all_that_it_shows(timeline):
-    wire, reader = PageWire(Maker()), Reader()
+    wire = PageWire(Maker())
+    reader = Reader()
     order = [0, 1, 2, 3, 4, 5, 4, 3, 0, 5, 2, 2]
     for k in order:
         scene = timeline[k].scene
@@ -65,7 +66,9 @@ def test_a_step_sends_each_kind_and_array_once_and_all_that_it_shows(timeline):
 
 
 def test_equal_content_in_other_objects_is_not_sent_again(timeline):
-    wire, reader, maker = PageWire(Maker()), Reader(), Maker()
+    wire = PageWire(Maker())
+    reader = Reader()
+    maker = Maker()
     scene = timeline[1].scene
     reader.read(wire.step({}, scene, VIEW))
     copy = {path: replace(primitive) for path, primitive in scene.items()}  # type: ignore[type-var]
@@ -77,7 +80,9 @@ def test_equal_content_in_other_objects_is_not_sent_again(timeline):
 
 def test_a_page_that_holds_much_is_told_to_forget_and_sent_all_again(monkeypatch):
     monkeypatch.setattr(packing, "MOST_ON_A_PAGE", 20_000)
-    wire, reader, fresh = PageWire(Maker()), Reader(), []
+    wire = PageWire(Maker())
+    reader = Reader()
+    fresh = []
     for k in range(12):
         cloud = Points(RNG.uniform(size=(300, 3)))  # 3,600 bytes
         head = reader.read(wire.step({}, {"rest": KINDS[0]["x"], "cloud": cloud}, VIEW))
@@ -91,7 +96,8 @@ def test_a_page_that_holds_much_is_told_to_forget_and_sent_all_again(monkeypatch
 
 
 def test_a_stage_is_told_where_the_view_or_the_lesson_is_another():
-    wire, reader = PageWire(Maker()), Reader()
+    wire = PageWire(Maker())
+    reader = Reader()
     other = View(eye=(1.0, 1.0, 1.0))
 
     def told(view: View, lesson: str) -> bool:
@@ -114,7 +120,8 @@ def test_a_stage_is_told_where_the_view_or_the_lesson_is_another():
 def test_a_run_holds_step_by_step_what_a_live_page_is_sent(timeline):
     reader, maker = Reader(), Maker()
     whole = reader.read(run_bytes(timeline, maker))
-    live_wire, live = PageWire(Maker()), Reader()
+    live_wire = PageWire(Maker())
+    live = Reader()
     view = timeline.lesson.view_of(timeline.params)
     before: dict[str, Any] = {}
     assert len(whole["steps"]) == len(timeline)

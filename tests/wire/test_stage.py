@@ -81,7 +81,8 @@ def test_no_shadow_is_cast_and_nothing_is_mirrored():
 
 
 def test_a_knob_that_leads_to_something_of_another_size_turns_the_camera_and_no_other_does():
-    lesson, aim = catalog()["icp"], Aim()
+    lesson = catalog()["icp"]
+    aim = Aim()
     large = View(eye=(0.0, -30.0, 20.0), grid=lesson.view.grid, grid_height=lesson.view.grid_height)
     lesson = replace(lesson, view_for=lambda params: large if params.seed > 5 else lesson.view)
     preset = lesson.presets[0]
@@ -103,7 +104,8 @@ def test_a_knob_that_leads_to_something_of_another_size_turns_the_camera_and_no_
 def test_a_choice_that_leads_to_other_things_brings_the_camera_of_their_presets(
     name, choice, value
 ):
-    lesson, aim = catalog()[name], Aim()
+    lesson = catalog()[name]
+    aim = Aim()
     params = replace(lesson.params(), **{choice: value}, seed=lesson.params().seed + 1)
     theirs = [preset.view for preset in lesson.presets if getattr(preset.params, choice) == value]
     assert lesson.preset_of(params) is None
@@ -119,7 +121,8 @@ def test_a_choice_that_leads_to_other_things_brings_the_camera_of_their_presets(
     ("grid", "height", "stays"), [(0.7, 0.0, False), (None, 1.0, False), (None, 0.0, True)]
 )
 def test_the_view_of_a_preset_stays_behind_a_knob_unless_its_grid_is_another(grid, height, stays):
-    lesson, aim = catalog()["fitting"], Aim()
+    lesson = catalog()["fitting"]
+    aim = Aim()
     usual = lesson.view
     own = replace(
         usual, eye=(9.0, 9.0, 9.0), grid=grid or usual.grid, grid_height=usual.grid_height + height

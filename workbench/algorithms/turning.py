@@ -152,7 +152,8 @@ def icp_turn(
     Note:
         Without normals no sub-step raises the RMSE: `cost` falls to the bottom of a valley.
     """
-    angle, by = float(start), 0.0
+    angle = float(start)
+    by = 0.0
     last_seen: dict[bytes, int] = {}
     for iteration in range(1, max_iterations + 1):
         p = turned(p_source, angle)

@@ -204,14 +204,16 @@ def relate(
     state = replace(state, stage="rank two", F=F)
     yield state
     for k in range(MOST_ROUNDS if route == "refined F" else 0):
-        before, F = F, refine_fundamental(F, uv_first, uv_second, steps=1)
+        before = F
+        F = refine_fundamental(F, uv_first, uv_second, steps=1)
         state = replace(state, stage="refined F", F=F, rounds=k + 1)
         yield state
         if np.abs(F * np.sign((F * before).sum()) - before).max() < STILL * np.abs(F).max():
             break
 
     E = essential_from_fundamental(F, K_first, K_second)
-    E_values, E = np.linalg.svd(E)[1], equal_singular_values(E)
+    E_values = np.linalg.svd(E)[1]
+    E = equal_singular_values(E)
     yield (state := replace(state, stage="essential", E_values=E_values))
     Ts = _numbers(essential_to_poses(E), "essential_to_poses")
     P_first = camera_matrix(K_first, np.eye(4))
@@ -235,11 +237,9 @@ def relate(
     )
 
     for k in range(MOST_ROUNDS if route == "refined pose" else 0):
-        before, T_second_first = (
-            T_second_first,
-            refine_motion(
-                T_second_first, uv_first, uv_second, K_first=K_first, K_second=K_second, steps=1
-            ),
+        before = T_second_first
+        T_second_first = refine_motion(
+            T_second_first, uv_first, uv_second, K_first=K_first, K_second=K_second, steps=1
         )
         p_first = triangulate(P_first, camera_matrix(K_second, T_second_first), uv_first, uv_second)
         F = fundamental_from_cameras(K_first, K_second, T_second_first)

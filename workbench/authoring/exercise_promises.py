@@ -105,7 +105,8 @@ def the_function_drives_the_lesson(subject: Subject, exercise: Exercise) -> Foun
 def the_run_that_is_opened_calls_the_function(subject: Subject, exercise: Exercise) -> Found:
     """The run at which a student's function is watched first calls it."""
     subject.tell(f"exercise {exercise.name} in the run that is opened")
-    lesson, preset = subject.lesson, exercise.contract.preset
+    lesson = subject.lesson
+    preset = exercise.contract.preset
     params = lesson.params() if preset is None else lesson.preset(preset).params
     run = "the default run" if preset is None else f"preset {preset!r}"
     never = (
@@ -228,7 +229,8 @@ def the_examples_are_true(subject: Subject, exercise: Exercise) -> Found:
                     f" says {result}"
                 )
             except Exception as error:
-                true, problem = False, f"raises {type(error).__name__}: {error}"
+                true = False
+                problem = f"raises {type(error).__name__}: {error}"
             yield None if true else f"{who(exercise)}{call} {problem}"
 
 

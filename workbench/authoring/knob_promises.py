@@ -20,7 +20,8 @@ def every_knob_goes_to_its_ends(subject: Subject) -> Found:
     Where the default run does not meet what a knob needs, the run would be the same again. A knob
     that the default run reads changes something in it at one of these values.
     """
-    base, default = subject.lesson.params(), subject.default()
+    base = subject.lesson.params()
+    default = subject.default()
     read = default.read if subject.lesson.form.notes else frozenset()
     for field in fields_of(subject.lesson.params):
         if any(

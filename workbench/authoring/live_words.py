@@ -124,7 +124,8 @@ def _only_of_site(match: re.Match[str]) -> str:
     """Leave of two wordings the one for pages that cannot compute; all that stays keeps its
     line.
     """
-    whole, words = match[0], match[2] if match[1] == "site" else ""
+    whole = match[0]
+    words = match[2] if match[1] == "site" else ""
     before, _, after = whole.partition(words) if words else (whole, "", "")
     return _blank(before) + words + _blank(after)
 

@@ -34,7 +34,8 @@ def the_page_has_its_parts(subject: Subject) -> Found:
             f"{subject.who}: it has no page; page=Path(__file__).with_name('page.md') gives it one"
         )
         return
-    text, where = lesson.text(), f"{subject.who}: {lesson.page}"
+    text = lesson.text()
+    where = f"{subject.who}: {lesson.page}"
     tells = has_story(lesson)
     yield None if tells else length_of(f"{where}: the page", len(text.split()), WORDS, "words")
     for part in STORY_PARTS if tells else PARTS:

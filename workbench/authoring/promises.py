@@ -56,7 +56,9 @@ class Subject:
         seconds: float = SECONDS,
         tell: Callable[[str], object] = lambda doing: None,
     ):
-        self.lesson, self.who, self.tell = lesson, f"lesson {lesson.name}", tell
+        self.lesson = lesson
+        self.who = f"lesson {lesson.name}"
+        self.tell = tell
         self._whole, self._seconds = whole, seconds
         self._kept: dict[Any, Timeline] = {}
 
@@ -103,7 +105,8 @@ def the_default_run_ends_well(subject: Subject) -> Found:
     """The default run comes to its end by itself, in two steps or more, and opens at one of
     them.
     """
-    lesson, run = subject.lesson, subject.default()
+    lesson = subject.lesson
+    run = subject.default()
     yield run.stopped
     if run.stopped is None:
         few = (
@@ -160,7 +163,8 @@ def every_step_shows_something_in_space(subject: Subject) -> Found:
         for path, primitive in step.scene.items():
             kind = kinds.setdefault(path, type(primitive))
             if kind is not type(primitive):
-                after, before = type(primitive).__name__, kind.__name__
+                after = type(primitive).__name__
+                before = kind.__name__
                 yield (
                     f"{where}step {k}: {path!r} is of the kind {after} now, and was of the kind"
                     f" {before}"
@@ -306,7 +310,8 @@ def run_takes_only_keywords_beside_params(subject: Subject) -> Found:
     """`run` takes `params`, its subject, and by keyword functions that have defaults; the name
     can be a folder.
     """
-    lesson, inputs = subject.lesson, subject.lesson.form.inputs
+    lesson = subject.lesson
+    inputs = subject.lesson.form.inputs
     first, *others = inspect.signature(lesson.run).parameters.values()
     where = f"{subject.who}: {at(lesson.run)}run"
     yield (

@@ -62,7 +62,8 @@ class Edited:
                 f"lesson {self.lesson.name}: {self.path}: its code ends the program"
             )
         else:
-            self.lesson, self.trouble = lesson, None
+            self.lesson = lesson
+            self.trouble = None
         return True
 
     def _stamp_now(self) -> dict[str, tuple[int, int]]:

@@ -91,7 +91,10 @@ def validate(word: str, told: Callable[[str], object], *, seconds: float = SECON
         find(word)
     elif not Path(word).exists():
         raise InputError(f"{word}: no such file or folder")
-    name, looked_at, wrong, doing = word, 0, list[str](), "loading it"
+    name = word
+    looked_at = 0
+    wrong = list[str]()
+    doing = "loading it"
 
     def tell(line: str) -> None:
         if line not in wrong:

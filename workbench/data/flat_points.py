@@ -47,14 +47,16 @@ def read_round(
             place; and where something round is wanted, if they lie on a line or a plane.
     """
     p = read_flat_or_cloud(path, fewest=6)
-    p, wanted = p[evenly(len(p), most)], 2 if shape == "circle" else 3
+    p = p[evenly(len(p), most)]
+    wanted = 2 if shape == "circle" else 3
     if wanted != p.shape[1]:
         raise InputError(f"{path.name} has {p.shape[1]} columns, and a {shape} needs {wanted}")
     size = np.ptp(p, axis=0).max()
     if not size > 0:
         raise InputError(f"{path.name}: all its points lie at one place")
     low, high = box(p)
-    center, unit = (low + high) / 2, size / WIDTH
+    center = (low + high) / 2
+    unit = size / WIDTH
     if shape != "plane" and np.linalg.matrix_rank(p - p.mean(axis=0), tol=1e-9 * size) < wanted:
         flat = "line" if wanted == 2 else "plane"
         raise InputError(
@@ -62,7 +64,8 @@ def read_round(
         )
     fit = fit_algebraic(p) if shape in ("circle", "sphere") else None
     if fit is not None and fit[-1] < LARGEST * size:
-        center, unit = fit[:-1], fit[-1]
+        center = fit[:-1]
+        unit = fit[-1]
     return (p - center) / unit, float(unit)
 
 

@@ -50,7 +50,8 @@ class Frame:
 
     def shown_motion(self, T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
         """Return the map S of shown points with S(shown(p)) = shown(T(p)); T may be affine."""
-        A, R = T[:3, :3], self.R_world_file
+        A = T[:3, :3]
+        R = self.R_world_file
         A_world = R @ A @ R.T
         moved = self.scale * R @ (apply(T, self.centre) - self.centre)
         return motion(A_world, moved + self.offset - A_world @ self.offset)
@@ -133,7 +134,8 @@ def broad_side_to(
     R_up = UPRIGHT[up]
     xy = (p @ R_up.T)[:, :2]
     _, _, directions = np.linalg.svd(xy - xy.mean(axis=0), full_matrices=False)
-    thin, ahead = directions[1], eye[:2]
+    thin = directions[1]
+    ahead = eye[:2]
     thin = thin if thin @ ahead >= 0 else -thin
     turn = np.arctan2(ahead[1], ahead[0]) - np.arctan2(thin[1], thin[0])
     return exp_so3(np.array([0.0, 0.0, turn])) @ R_up
@@ -148,6 +150,7 @@ def round_below(length: float) -> float:
 def ground_grid(cell: float, height: float, reach: float = 1.5) -> Float[np.ndarray, "n 2 3"]:
     """Return segments of a level grid about the origin, squares of `cell` metres."""
     n = int(np.ceil(reach / cell))
-    at, end = cell * np.arange(-n, n + 1), n * cell
+    at = cell * np.arange(-n, n + 1)
+    end = n * cell
     lines = np.array([[[x, -end, height], [x, end, height]] for x in at])
     return np.concatenate([lines, lines[:, :, [1, 0, 2]]])

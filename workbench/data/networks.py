@@ -57,7 +57,8 @@ def karate(weighted: bool = False) -> Network:
     table = np.array(
         [(int(a), *map(int, pair.split("x"))) for a, others in rows for pair in others.split()]
     )
-    edges, weights = table[:, :2], table[:, 2].astype(float)
+    edges = table[:, :2]
+    weights = table[:, 2].astype(float)
     classes = np.ones(34, dtype=int)
     classes[list(_WITH_THE_INSTRUCTOR)] = 0
     return Network(
@@ -122,7 +123,8 @@ def grid(columns: int, rows: int) -> Network:
     Reference: Spielman 2019, sections 6.3 (products) and 6.6 (paths).
     """
     x, y = (part.ravel() for part in np.meshgrid(np.arange(columns), np.arange(rows)))
-    node, width = np.arange(columns * rows), max(columns, rows)
+    node = np.arange(columns * rows)
+    width = max(columns, rows)
     edges = np.concatenate([[node, node + 1], [node, node + columns]], axis=1).T
     edges = edges[np.concatenate([x < columns - 1, y < rows - 1])]
     paths = [2 - 2 * np.cos(np.pi * np.arange(n) / n) for n in (columns, rows)]
@@ -162,6 +164,7 @@ def hexagon_and_triangles() -> Network:
 
 
 def _cycle(count: int, radius: float) -> tuple[np.ndarray, np.ndarray]:
-    turn, node = 2 * np.pi * np.arange(count) / count, np.arange(count)
+    turn = 2 * np.pi * np.arange(count) / count
+    node = np.arange(count)
     p = radius * np.column_stack([np.cos(turn), np.sin(turn), np.zeros(count)])
     return p, np.column_stack([node, (node + 1) % count])

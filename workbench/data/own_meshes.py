@@ -44,7 +44,8 @@ def read_surface(
         check_mesh(placed, faces)
     except InputError as error:
         raise InputError(f"{path.name}: {error}") from None
-    repeats, turned = len(welded_faces) - len(once), int((agreeing != once).any(axis=1).sum())
+    repeats = len(welded_faces) - len(once)
+    turned = int((agreeing != once).any(axis=1).sum())
     split = len(placed) - len(p)
     done = (
         (repeats, f"{counted(repeats, 'face')} listed twice left out"),

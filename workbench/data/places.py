@@ -55,7 +55,8 @@ def read_places(path: Path) -> Places:
             places.
     """
     rows = text_rows(path, "places", KINDS)
-    names, degrees = list[str](), list[tuple[float, float]]()
+    names = list[str]()
+    degrees = list[tuple[float, float]]()
     for i, line in rows:
         cells = _cells(line)
         if (

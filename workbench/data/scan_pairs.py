@@ -70,7 +70,8 @@ def read_scans(
         InputError: If a file cannot be read, a scan is one place, or too few or too many points are
             left.
     """
-    files, p = (target, source), [read_cloud(file) for file in (target, source)]
+    files = (target, source)
+    p = [read_cloud(file) for file in (target, source)]
     for file, points in zip(files, p, strict=True):
         if not extent(points, FAR) > 0:
             raise InputError(f"{file.name}: all its points lie at one place")

@@ -82,10 +82,12 @@ def own_pair(
         InputError: If a file cannot be used.
     """
     (p_target, how), (p_source, theirs) = framed(target, up), framed(source, up)
-    p_target, p_source = how.shown(p_target), replace(theirs, scale=how.scale).shown(p_source)
+    p_target = how.shown(p_target)
+    p_source = replace(theirs, scale=how.scale).shown(p_source)
     if truth is None:
         return p_target, p_source, None
-    T, R_up = read_pose(truth, target, source), how.R_world_file
+    T = read_pose(truth, target, source)
+    R_up = how.R_world_file
     moved = T[:3, :3] @ theirs.centre + T[:3, 3] - how.centre
     return p_target, p_source, motion(R_up @ T[:3, :3] @ R_up.T, how.scale * R_up @ moved)
 

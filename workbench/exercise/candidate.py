@@ -91,7 +91,8 @@ class Candidate:
             raise
         except Exception as error:  # one of our own functions, which may be wrong on purpose
             self._keep(args, raised(error), right)
-            name, names = type(error).__name__, tuple(kind.__name__ for kind in type(error).__mro__)
+            name = type(error).__name__
+            names = tuple(kind.__name__ for kind in type(error).__mro__)
             raise StudentError(
                 f"{self.__name__} raised {name}: {error}", "raised", name, errors=names
             ) from None
@@ -210,10 +211,12 @@ def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
     finite = np.isfinite(got)
     most = LARGEST * np.abs(wanted[known]).max(initial=1.0)
     if known.all() and not finite.all():
-        strange, asked = ~finite, "finite numbers"
+        strange = ~finite
+        asked = "finite numbers"
         returned = f"{got}" if got.ndim == 0 else f"{strange.sum()} of {got.size} values not finite"
     elif np.abs(got[finite]).max(initial=0.0) > most:
-        strange, asked = finite & (np.abs(got) > most), "numbers that can be computed with"
+        strange = finite & (np.abs(got) > most)
+        asked = "numbers that can be computed with"
         returned = (
             f"{got}"
             if got.ndim == 0

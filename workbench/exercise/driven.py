@@ -66,10 +66,8 @@ class _Beside:
     """
 
     def __init__(self, function: Function, exercise: Exercise):
-        self._candidate, self._contract = (
-            Candidate(function, exercise.reference, remember=False),
-            exercise.contract,
-        )
+        self._candidate = Candidate(function, exercise.reference, remember=False)
+        self._contract = exercise.contract
         self.called = self.differed = False
 
     def __call__(self, *args: Any) -> Any:
@@ -90,7 +88,9 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
         ours = form.run(params, subject)
         theirs = form.run(params, subject, **{exercise.contract.slot: beside})
         draw_ours, draw_theirs = _Drawn(form, params, subject), _Drawn(form, params, subject)
-        state_ours, scene_ours, differed = None, {}, False
+        state_ours = None
+        scene_ours = {}
+        differed = False
         while True:
             for state_ours in itertools.islice(ours, 1):
                 scene_ours = draw_ours(state_ours)

@@ -58,7 +58,8 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
     Raises:
         InputError: If two lessons of the course have an exercise of one name; tells both places.
     """
-    by_lesson, places = dict[str, tuple[Exercise, ...]](), dict[str, str]()
+    by_lesson = dict[str, tuple[Exercise, ...]]()
+    places = dict[str, str]()
     for name, lesson in course().items():
         by_lesson[name] = _of_course(name)
         for exercise in by_lesson[name]:

@@ -31,7 +31,8 @@ def rotation_verdict(
 ) -> Verdict:
     """Judge a rotation by the angle to the right one, degrees; no rotation earns nothing."""
     hint = beside(R, R_right, hint, name)
-    off, det = float(np.abs(R.T @ R - np.eye(3)).max()), float(np.linalg.det(R))
+    off = float(np.abs(R.T @ R - np.eye(3)).max())
+    det = float(np.linalg.det(R))
     if off > SKEWED or det < 0:
         if off <= SKEWED:
             return fail(f"{name} mirrors: its determinant is {number(det, 3)}, right is 1. {hint}")
@@ -158,9 +159,11 @@ def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
     at = tuple(int(i) for i in np.unravel_index(int(np.argmax(off)), off.shape))
     where = f"{name}[{', '.join(map(str, at))}]"
     if right.ndim == 2 and right.shape[1] <= 3 and right.shape[0] != right.shape[1]:
-        at, where = (row,), f"{name}[{row}]" if name else f"Row {row}"
+        at = (row,)
+        where = f"{name}[{row}]" if name else f"Row {row}"
     elif right.ndim == 0 or (right.ndim == 1 and right.size <= 4):
-        at, where = (), name or "Yours"
+        at = ()
+        where = name or "Yours"
     return f"{where} is {against(got[at], right[at])}. {hint}"
 
 

@@ -284,7 +284,8 @@ def exercise_in(module: ModuleType, lesson: str, hidden: ModuleType | None = Non
         item for item in own if isinstance(item, Contract) and _is_of(item.function, module)
     ]
     checks = _checks_in(module) + (() if hidden is None else _checks_in(hidden))
-    name, task = module.__name__.rpartition(".")[2], " ".join((module.__doc__ or "").split())
+    name = module.__name__.rpartition(".")[2]
+    task = " ".join((module.__doc__ or "").split())
     if [item.function.__name__ for item in contracts] != [name]:
         raise InputError(
             f"{module.__file__}: it needs one function `{name}` with @contract: what a student"

@@ -109,7 +109,11 @@ def _the_most(weights: dict[Mistake, int], least: int) -> Mistake | None:
 
 def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Evidence | None:
     """Return how calls speak for a mistake; None where one speaks against it."""
-    weight, numbers, made, spared, other = 0, set[float](), 0, 0, 0
+    weight = 0
+    numbers = set[float]()
+    made = 0
+    spared = 0
+    other = 0
     for call in calls:
         if call.right.error:
             is_one = not _alike(_answer(mistake.function, call), call.right, exercise)
@@ -120,10 +124,8 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
             else:
                 other += 1
         else:
-            mistaken, others = (
-                _answer(mistake.function, call),
-                [_answer(f, call) for f in exercise.alternatives],
-            )
+            mistaken = _answer(mistake.function, call)
+            others = [_answer(f, call) for f in exercise.alternatives]
             is_open = any(not _alike(other, call.right, exercise) for other in others)
             if _alike(call.answer, mistaken, exercise):
                 wrong = not _alike(mistaken, call.right, exercise)
@@ -201,7 +203,8 @@ def values_alike(a: Any, b: Any) -> bool:
     )
     if first.shape != second.shape:
         return False
-    size, same = np.abs(second), first == second
+    size = np.abs(second)
+    same = first == second
     if same.all():
         return True
     known = np.isfinite(second)

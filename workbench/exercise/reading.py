@@ -74,7 +74,8 @@ class Reader:
         return json.loads(_answer(self._process, request, time.monotonic() + MOST_SECONDS))
 
     def _end(self) -> None:
-        process, self._process = self._process, None
+        process = self._process
+        self._process = None
         if process is not None:
             process.kill()
             process.wait()
@@ -90,7 +91,8 @@ def _answer(process: subprocess.Popen[bytes], request: bytes, until: float) -> b
         OSError: If the process is gone, or does not answer in time.
     """
     into, out = process.stdin.fileno(), process.stdout.fileno()  # type: ignore[union-attr]
-    rest, parts = memoryview(request), list[bytes]()
+    rest = memoryview(request)
+    parts = list[bytes]()
     while not parts or not parts[-1].endswith(b"\n"):
         readable, writable, _ = select.select(
             [out], [into] if rest else [], [], max(0.0, until - time.monotonic())

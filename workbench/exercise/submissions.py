@@ -10,7 +10,8 @@ from pathlib import Path
 from workbench.errors import InputError
 from workbench.exercise.submission import SUFFIXES, content
 
-MOST_FILES, MOST_TOGETHER = 200, 8 << 20
+MOST_FILES = 200
+MOST_TOGETHER = 8 << 20
 NOT_READ = "not read: unpack it, or save it as a .py file or a notebook"
 ARCHIVES = (".zip", ".tar", ".gz", ".tgz", ".bz2", ".xz", ".7z", ".rar")
 MOST_NAMED = 5

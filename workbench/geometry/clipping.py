@@ -144,7 +144,8 @@ def cut_finely(
         if not long.any():
             break
         pieces = _halves(p[long]) if p.shape[1] == 2 else _quarters(p[long])
-        p, source = np.concatenate(pieces), np.tile(source[long], len(pieces))
+        p = np.concatenate(pieces)
+        source = np.tile(source[long], len(pieces))
     return np.concatenate([p for p, _ in done]), np.concatenate([source for _, source in done])
 
 

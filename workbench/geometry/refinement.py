@@ -25,7 +25,8 @@ def levenberg_marquardt(
     lowers it by less than the share `tolerance`.
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 10.3.
     """
-    unknown, damping = start, 1e-6
+    unknown = start
+    damping = 1e-6
     residuals, jacobian = linearise(unknown)
     cost = residuals @ residuals
     for _ in range(steps):

@@ -181,10 +181,8 @@ def assigned(
     )
     if other:
         raise InputError(f"--weight {other}: is not handed out here")
-    opens, closes = (
-        _moment("--release", release, datetime.time()),
-        _moment("--due", due, datetime.time(23, 59, 59)),
-    )
+    opens = _moment("--release", release, datetime.time())
+    closes = _moment("--due", due, datetime.time(23, 59, 59))
     if opens and closes and closes <= opens:
         raise InputError(f"--due {due}: is not after --release {release}")
     return Assignment(

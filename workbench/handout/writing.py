@@ -30,7 +30,8 @@ def files(assignment: Assignment) -> dict[str, bytes]:
     """Return everything that is handed out, by its path."""
     held = {"README.md": readme(assignment).encode(), "student/TASK.md": task(assignment).encode()}
     for exercise in assignment.exercises:
-        name, room = exercise.file, assignment.megabytes or MEGABYTES
+        name = exercise.file
+        room = assignment.megabytes or MEGABYTES
         held[f"student/{name}"] = starter(exercise, room).encode()
         held |= {
             f"teacher/{kind}/{name}": written(exercise).encode() for kind, written in KINDS.items()

@@ -29,7 +29,8 @@ class _Worker:
     since: float = 0.0
 
     def take(self, task: Any) -> None:
-        self.task, self.since = task, time.monotonic()
+        self.task = task
+        self.since = time.monotonic()
         with contextlib.suppress(OSError):  # it has died; that is seen when it is asked
             self.pipe.send(task)
 

@@ -51,7 +51,8 @@ def article_html(lesson: Lesson, address: Address, home: str) -> str:
     names = {"this", "default", *(preset.name for preset in lesson.presets)}
 
     def link(match: re.Match[str]) -> str:
-        name, step = match[1], None if match[2] is None else int(match[2])
+        name = match[1]
+        step = None if match[2] is None else int(match[2])
         if name not in names:
             known = ", ".join(preset.name for preset in lesson.presets) or "none"
             raise AuthorError(

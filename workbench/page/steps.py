@@ -96,7 +96,8 @@ class Steps:
         """
         timeline = self.timeline
         known = len(timeline) if end is None else end
-        series, key = timeline.series(known), (start, known)
+        series = timeline.series(known)
+        key = (start, known)
         with self._lock:
             if key not in self._series:
                 self._series = dict(

@@ -62,7 +62,10 @@ class Manifest:
         try:
             self.made_by, self.lessons, self.runs, self.files = _read(out / KEPT)
         except (FileNotFoundError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
-            self.made_by, self.lessons, self.runs, self.files = None, {}, {}, {}
+            self.made_by = None
+            self.lessons = {}
+            self.runs = {}
+            self.files = {}
 
     def is_ours(self, name: str) -> bool:
         """Return whether a file is as we wrote it: then it may be replaced and removed."""

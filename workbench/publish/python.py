@@ -117,10 +117,12 @@ def _lock(folder: Path) -> dict[str, Any]:
 
 def _wanted(folder: Path, packages: Mapping[str, Any]) -> Iterator[str]:
     """Return the packages that the core needs, and those that they need."""
-    todo, done = list(PACKAGES), set[str]()
+    todo = list(PACKAGES)
+    done = set[str]()
     while todo:
         name = todo.pop(0)
-        version, depends = [0], list[str]()
+        version = [0]
+        depends = list[str]()
         if name in done:
             continue
         done.add(name)

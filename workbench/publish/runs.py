@@ -192,7 +192,8 @@ def _place(value: Any, values: Sequence[Any]) -> tuple[int, str]:
 
 def files_of(lesson: Lesson, run: Run) -> tuple[str, ...]:
     """Return where in a site a run's replay, page of its own, recording and stills are."""
-    beside, recording = f"{lesson.name}/runs/{run.file}", recording_of(lesson, run)
+    beside = f"{lesson.name}/runs/{run.file}"
+    recording = recording_of(lesson, run)
     return (
         f"{beside}.js",
         f"{beside}.html",

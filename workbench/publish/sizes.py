@@ -37,7 +37,9 @@ def checked(out: Path, names: Iterable[str]) -> list[tuple[str, int]]:
     for name, size in sizes:
         if not name.endswith(".html"):
             continue
-        page, weight, pictures = out / name, size, 0
+        page = out / name
+        weight = size
+        pictures = 0
         text = page.read_text(encoding="utf-8")
         for link in links_in(text):
             if link.startswith("data:image/"):

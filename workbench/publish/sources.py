@@ -37,7 +37,8 @@ def sources_of(lesson: Lesson) -> list[Path]:
     begin = {
         part.__module__ for part in (lesson.run, lesson.draw, lesson.params)
     } & sys.modules.keys()
-    files, waiting = {Path(lesson.page)} if lesson.page else set(), [*begin, OURS]
+    files = {Path(lesson.page)} if lesson.page else set()
+    waiting = [*begin, OURS]
     for name in begin:
         folder = Path(getattr(sys.modules[name], "__file__", None) or "").parent
         if (folder / "lesson.py").is_file():  # the folder is the lesson, with its page and its data
@@ -49,11 +50,10 @@ def sources_of(lesson: Lesson) -> list[Path]:
                 for file in own
                 if file.suffix == ".py"
             ]
-            files, waiting = (
-                files.union(own),
-                waiting + [".".join((name.rpartition(".")[0], *path)) for path in parts],
-            )
-    tops, seen = {"workbench", *(name.partition(".")[0] for name in begin)}, set[str]()
+            files = files.union(own)
+            waiting = waiting + [".".join((name.rpartition(".")[0], *path)) for path in parts]
+    tops = {"workbench", *(name.partition(".")[0] for name in begin)}
+    seen = set[str]()
     while waiting:
         name = waiting.pop()
         file = _file_of(name) if name not in seen and name.partition(".")[0] in tops else None

@@ -72,7 +72,8 @@ def chart_frame(x: Scale, y: Scale, x_label: str, names: Sequence[tuple[str, Rgb
         (LEFT - 20, y(tick) - 8) for tick in y.axis.ticks
     ]
     places.append(((LEFT + RIGHT) / 2, BOTTOM + 24))
-    words, colors = [*x.axis.words, *y.axis.words, x_label], [GREY] * len(places)
+    words = [*x.axis.words, *y.axis.words, x_label]
+    colors = [GREY] * len(places)
     rooms = np.array([18.0 + 6.6 * len(name) for name, _ in names])
     rooms *= min(1.0, WIDTH / rooms.sum())  # closer together where they would leave the canvas
     ends = min(LEFT, WIDTH - rooms.sum()) + np.cumsum(rooms)
@@ -141,7 +142,8 @@ def color_bar(
     """Return a colour bar from `at` to the right and down, with its ends, title and unit."""
     n = 64
     x, y = at
-    left, middle = x + np.arange(n) * width / n, np.full(n, y + height / 2)
+    left = x + np.arange(n) * width / n
+    middle = np.full(n, y + height / 2)
     strips = np.stack(
         [np.column_stack([left, middle]), np.column_stack([left + width / n, middle])], 1
     )
@@ -154,7 +156,8 @@ def color_bar(
 
 def legend_names(entries: Legend) -> list[Any]:
     """Return coloured dashes with names below them, in rows of `LEGEND_WIDTH`."""
-    places, colors = np.array(_legend_places(entries)[0]), [color for _, color in entries]
+    places = np.array(_legend_places(entries)[0])
+    colors = [color for _, color in entries]
     half = np.array([DASH / 2, 0.0])
     dashes = np.stack([places - half, places + half], axis=1)
     lines = rr.LineStrips2D(dashes, colors=colors, radii=rr.Radius.ui_points(2.5), draw_order=20.0)
@@ -177,11 +180,13 @@ def legend_height(entries: Legend, bars: int) -> float:
 
 def _legend_places(entries: Legend) -> tuple[list[tuple[float, float]], int]:
     places: list[tuple[float, float]] = []
-    x, row = 0.0, 0
+    x = 0.0
+    row = 0
     for name, _ in entries:
         room = 30.0 + 7.5 * len(name)
         if x > 0 and x + room > LEGEND_WIDTH:
-            x, row = 0.0, row + 1
+            x = 0.0
+            row = row + 1
         places.append((x + room / 2, row * LEGEND_ROW + 5.0))
         x += room
     return places, row + 1 if places else 0
@@ -195,15 +200,14 @@ def _bar_width(curve: Curve) -> float:
 
 def _bars(curve: Curve, x: Scale, y: Scale) -> list[np.ndarray]:
     """Return outlines of bars, hatched by one line down their middle to read as solid."""
-    half, pieces = 0.45 * _bar_width(curve), []
+    half = 0.45 * _bar_width(curve)
+    pieces = []
     for at, value in zip(curve.x, curve.y, strict=True):
         if np.isfinite(value):
-            left, right, top, foot = (
-                x(at - half),
-                x(at + half),
-                y(value),
-                y(max(min(0.0, y.axis.high), y.axis.low)),
-            )
+            left = x(at - half)
+            right = x(at + half)
+            top = y(value)
+            foot = y(max(min(0.0, y.axis.high), y.axis.low))
             pieces.append(
                 np.array([[left, foot], [left, top], [right, top], [right, foot], [left, foot]])
             )

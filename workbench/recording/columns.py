@@ -41,8 +41,10 @@ def facts(**values: Any) -> rr.AnyValues:
 
 def send_series(stream: Any, path: str, series: Series, *, order: int) -> None:
     """Send one scalar over all steps, how it is drawn, and its logarithm if that is drawn."""
-    scalar, values = series.scalar, series.values.astype(float)
-    entity, shown = entity_of("scalars", path), plotted(path, scalar)
+    scalar = series.scalar
+    values = series.values.astype(float)
+    entity = entity_of("scalars", path)
+    shown = plotted(path, scalar)
     stream.send_columns(entity, [_steps(len(values))], rr.Scalars.columns(scalars=values))
     about = facts(
         name=scalar.name,

@@ -224,15 +224,11 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     )
     up = value_axis([y])
     # else the lowest number and the first step overprint
-    low, high = (
-        up.low - 0.1 * (up.high - up.low),
-        up.high,
-    )
+    low = up.low - 0.1 * (up.high - up.low)
+    high = up.high
     beyond = 1 + steps // 40  # so that the cursor can be seen at the last step too
-    end, infinite = (
-        rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond),
-        rrb.TimeRangeBoundary.infinite(),
-    )
+    end = rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond)
+    infinite = rrb.TimeRangeBoundary.infinite()
     return rrb.TimeSeriesView(
         origin="/",
         contents=[
@@ -263,7 +259,8 @@ def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
 
 def _eye(view: View) -> np.ndarray:
     """Return the eye as near as Rerun's own field of view needs it; never right along up."""
-    target, up = np.array(view.target), np.array(view.up) / np.linalg.norm(view.up)
+    target = np.array(view.target)
+    up = np.array(view.up) / np.linalg.norm(view.up)
     share = np.tan(np.radians(view.fov_degrees) / 2) / np.tan(np.radians(RERUN_FOV) / 2)
     away = (view.seen_from() - target) * share
     along = (away @ up) * up

@@ -55,7 +55,8 @@ def plain_formula(tex: str) -> str:
 
 def _said(part: Element) -> str:
     """Return what an element of MathML says."""
-    parts, text = list(part), (part.text or "").strip()
+    parts = list(part)
+    text = (part.text or "").strip()
     match part.tag:
         case "mspace":
             return THIN
@@ -84,7 +85,9 @@ def _said(part: Element) -> str:
 
 def _row(parts: Iterable[Element]) -> str:
     """Return what stands side by side, a space between names that are multiplied."""
-    row, named, operand = "", False, False
+    row = ""
+    named = False
+    operand = False
     for part in parts:
         text = (part.text or "").strip()
         is_name = (
@@ -96,10 +99,8 @@ def _row(parts: Iterable[Element]) -> str:
         else:
             word = next(part.itertext(), "").strip()
             row += (" " if is_name and (named or (operand and len(word) > 1)) else "") + _said(part)
-        named, operand = (
-            is_name,
-            part.tag not in ("mo", "mspace") or text in (")", "]", "}", "|", "‖"),
-        )
+        named = is_name
+        operand = part.tag not in ("mo", "mspace") or text in (")", "]", "}", "|", "‖")
     return row
 
 

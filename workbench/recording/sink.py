@@ -147,7 +147,8 @@ def legend_of(scene: Scene) -> tuple[Legend, list[Field]]:
     fields: list[Field] = []
     for primitive in scene.values():
         if isinstance(primitive, Picture) and in_space(primitive):
-            color, name = primitive.image, ""
+            color = primitive.image
+            name = ""
         elif isinstance(primitive, (Points, Segments, Mesh, Camera)):
             color, name = primitive.color, primitive.name
         else:

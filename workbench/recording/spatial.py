@@ -222,8 +222,10 @@ def _frustum(camera: Camera) -> Any:
 
 
 def _plane(picture: Picture) -> Any:
-    image, width = picture.rgb(), picture.width or 1.0
-    x, y = width / 2, width / 2 * image.shape[0] / image.shape[1]
+    image = picture.rgb()
+    width = picture.width or 1.0
+    x = width / 2
+    y = width / 2 * image.shape[0] / image.shape[1]
     return rr.Mesh3D(
         vertex_positions=[[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]],
         triangle_indices=[[0, 1, 2], [0, 2, 3]],
@@ -238,10 +240,13 @@ def _surface(mesh: Mesh, **colors: Any) -> Any:
     corners = mesh.p[mesh.faces]
     v_face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     if mesh.flat:
-        p, faces = corners.reshape(-1, 3), np.arange(3 * len(mesh.faces)).reshape(-1, 3)
+        p = corners.reshape(-1, 3)
+        faces = np.arange(3 * len(mesh.faces)).reshape(-1, 3)
         normals = np.repeat(v_face, 3, axis=0)
     else:
-        p, faces, normals = mesh.p, mesh.faces, np.zeros_like(mesh.p, dtype=float)
+        p = mesh.p
+        faces = mesh.faces
+        normals = np.zeros_like(mesh.p, dtype=float)
         for corner in range(3):
             np.add.at(normals, mesh.faces[:, corner], v_face)
     normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)

@@ -153,7 +153,8 @@ def record_bytes(
     lesson = timeline.lesson
     if preset is not None and lesson.preset(preset).params != timeline.params:
         preset = None  # changed since: the name would promise another run
-    application, view = application_id(lesson.name), lesson.view_of(timeline.params)
+    application = application_id(lesson.name)
+    view = lesson.view_of(timeline.params)
 
     scenes = [step.scene for step in steps]
     contents, clouds = contents_of(scenes), unions(scenes)

@@ -117,7 +117,8 @@ def parse(
         InputError: On an unknown flag or lesson, or a value that cannot be used.
         SystemExit: After `--help`, with code 0.
     """
-    signature, words = inspect.signature(function), _spelled(args)
+    signature = inspect.signature(function)
+    words = _spelled(args)
     parser = _Parser(prog, description=description, allow_abbrev=False, formatter_class=_layout)
     asked = _asked(words, signature.parameters.values())
     if any(parameter.annotation is RunChoice for parameter in signature.parameters.values()):
@@ -188,7 +189,8 @@ def _option(
     given.
     """
     kind, option = get_args(annotation)
-    required, many = default is inspect.Parameter.empty, get_origin(kind) is tuple
+    required = default is inspect.Parameter.empty
+    many = get_origin(kind) is tuple
     about = option.help.replace("%", "%%") + (" (required)" if required else "")
     flag = option.flag or f"--{name.rstrip('_').replace('_', '-')}"
     names = [option.short, flag] if option.short else [flag]
@@ -295,10 +297,8 @@ def _lesson_reader(
     parser.description = f"{parser.description}\n\n{lesson.title}: {lesson.summary}"
     presets = ", ".join(preset.name for preset in lesson.presets) or "none"
     parser.add_argument("--preset", metavar="NAME", help=f"Start from one of: {presets}.")
-    group, fields_ = (
-        parser.add_argument_group(f"{lesson.name} options"),
-        knobs.fields_of(lesson.params),
-    )
+    group = parser.add_argument_group(f"{lesson.name} options")
+    fields_ = knobs.fields_of(lesson.params)
     for field in fields_:
         taken = _flag(field.name) in parser._option_string_actions
         flag = _flag(f"{lesson.name}_{field.name}" if taken else field.name)
@@ -330,7 +330,8 @@ def _add_param(group: Any, field: knobs.ParamField, default: Any, *, flag: str) 
     """Add the flag of a Params field. It takes text: `knobs` knows kind and range, and says what is
     allowed.
     """
-    knob, about = field.knob, field.knob.hint.rstrip(".")
+    knob = field.knob
+    about = field.knob.hint.rstrip(".")
     shown = "" if default in (None, "") else f" (default: {knobs.text_of(default)})"
     more: dict[str, Any] = {"dest": _PARAM + field.name}
     if field.kind == "bool":

@@ -205,10 +205,12 @@ def _importable_as(folder: Path) -> str | None:
     """Return the name under which Python imports a folder, None where it does not, or finds another
     one.
     """
-    parts, top = [folder.name], folder
+    parts = [folder.name]
+    top = folder
     while (top := top.parent) and (top / "__init__.py").is_file():
         parts.insert(0, top.name)
-    name, init = ".".join(parts), folder / "__init__.py"
+    name = ".".join(parts)
+    init = folder / "__init__.py"
     try:
         spec = find_spec(name) if init.is_file() else None
     except (ImportError, ValueError):

@@ -77,7 +77,8 @@ def _nearest(p_world: np.ndarray, p_origin: np.ndarray, v_ray: np.ndarray) -> in
 
 def _pixel(picture: Picture, p_origin: np.ndarray, v_ray: np.ndarray) -> tuple[int, int] | None:
     T_world_object = np.eye(4) if picture.T_world_object is None else picture.T_world_object
-    R, p_centre = T_world_object[:3, :3], T_world_object[:3, 3]
+    R = T_world_object[:3, :3]
+    p_centre = T_world_object[:3, 3]
     slope = v_ray @ R[:, 2]
     if abs(slope) < 1e-9:
         return None

@@ -52,12 +52,11 @@ def answer(lesson: Lesson, question: Question, given: Any, timelines: Timelines)
         why = str(question.why(states))
     step = stop_of(timeline) if question.step is None else timeline.opening(owner, question.step)
     if question.choices:
-        right, truth = predicted == value, str(question.choices[int(value)])
+        right = predicted == value
+        truth = str(question.choices[int(value)])
     else:
-        right, truth = (
-            abs(predicted - value) <= question.tolerance,
-            f"{value:.4g} {question.unit}".rstrip(),
-        )
+        right = abs(predicted - value) <= question.tolerance
+        truth = f"{value:.4g} {question.unit}".rstrip()
     reply = "" if right or math.isnan(predicted) else question.reply(predicted)
     return Answer(right=right, value=value, truth=truth, why=why, step=step, reply=reply)
 

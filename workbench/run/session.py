@@ -65,7 +65,8 @@ class Session:
         timelines: Timelines | None = None,
         slots: Mapping[str, Callable] | None = None,
     ):
-        self.lesson, self.slots = lesson, dict(slots or {})
+        self.lesson = lesson
+        self.slots = dict(slots or {})
         self.timelines = Timelines() if timelines is None else timelines
         self.message: str | None = None
         self._shown: Timeline | None = (
@@ -96,9 +97,11 @@ class Session:
             self._aside = None
         elif knobs.names_files(self.params):
             self._aside = self.params
-        self.lesson, self.message = lesson, None
+        self.lesson = lesson
+        self.message = None
         if other:
-            self._shown, self.slots = None, {}
+            self._shown = None
+            self.slots = {}
         self._go(params)
         if step is None and params == lesson.params():
             self._start(f"lesson {lesson.name}", lesson.opens)
@@ -177,7 +180,8 @@ class Session:
         """Hold the run no longer, to make room; what is shown stays until `take_up` or another
         wish.
         """
-        self.timeline, self._shown = Timeline(self.lesson, self.params, self.slots), None
+        self.timeline = Timeline(self.lesson, self.params, self.slots)
+        self._shown = None
 
     def take_up(self) -> None:
         """Hold the run of the wanted params again, after `let_go`; its steps may have to be
@@ -233,7 +237,8 @@ class Session:
         """Compute steps of the wanted run for about so long, at least one; return early when
         another run is wanted.
         """
-        timeline, end = self.timeline, time.perf_counter() + seconds
+        timeline = self.timeline
+        end = time.perf_counter() + seconds
         while timeline is self.timeline and timeline.extend() and time.perf_counter() < end:
             pass
 
@@ -245,7 +250,8 @@ class Session:
         if len(timeline):
             self._shown, k = timeline, self.step
         elif self._shown is not None and self._shown.lesson is self.lesson and len(self._shown):
-            timeline, k = self._shown, min(self._last_k, len(self._shown) - 1)
+            timeline = self._shown
+            k = min(self._last_k, len(self._shown) - 1)
         else:
             return self._blank() if timeline.finished or self.message else None
         self._last_k = k
@@ -283,13 +289,15 @@ class Session:
         )
 
     def _want(self, step: int) -> None:
-        self._wanted, self._opens = step, None
+        self._wanted = step
+        self._opens = None
 
     def _start(self, owner: str, step: int) -> None:
         """Go to the step at which an author lets a run open; `owner` is told if it turns out that
         there is none.
         """
-        self._wanted, self._opens = step, (owner, step)
+        self._wanted = step
+        self._opens = (owner, step)
 
     def _trouble(self, k: int) -> Caption | None:
         if self.message is not None:

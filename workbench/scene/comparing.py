@@ -145,7 +145,8 @@ def arrays(value: Any) -> Iterator[np.ndarray]:
     """Walk through all arrays that a scene, primitive or state holds; what it holds twice is walked
     through once.
     """
-    waiting, seen = [value], {}
+    waiting = [value]
+    seen = {}
     while waiting:
         value = waiting.pop()
         if isinstance(value, np.ndarray):

@@ -222,7 +222,8 @@ def is_rigid(T: np.ndarray) -> bool:
     """Tell whether a 4x4 is a rotation and a translation, so that a viewer can take it as a
     pose.
     """
-    rows, last = T[:3, :3].tolist(), T[3].tolist()
+    rows = T[:3, :3].tolist()
+    last = T[3].tolist()
     if last != [0.0, 0.0, 0.0, 1.0]:
         return False
     (a, b, c), (d, e, f), (g, h, i) = (

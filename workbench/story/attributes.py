@@ -25,7 +25,9 @@ class Attributes:
     @classmethod
     def read(cls, text: str) -> "Attributes":
         """Return what a text says, with its braces or without; what is no attribute is left out."""
-        name, classes, values = "", list[str](), dict[str, str]()
+        name = ""
+        classes = list[str]()
+        values = dict[str, str]()
         for attribute in re.findall(_ONE, text):
             if attribute.startswith("#"):
                 name = attribute[1:]

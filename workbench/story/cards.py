@@ -75,7 +75,9 @@ def what_if(block: Block, names: Names, notes: Found, *, beat: int, later: bool 
     Raises:
         AuthorError: If it has no title or no pick, or a pick leads nowhere.
     """
-    title, lines, picks = "", list[str](), list[str]()
+    title = ""
+    lines = list[str]()
+    picks = list[str]()
     for part in block.inside():
         text = next((token for token in part.tokens if token.type == "inline"), None)
         if text is None:
@@ -118,7 +120,8 @@ def _picks(tokens: list[Any], names: Names, notes: Found, line: int) -> tuple[st
         elif token.type == "link_open" and str(token.attrs.get("href", "")).startswith("run:"):
             run, step = names.moment(str(token.attrs["href"]).removeprefix("run:"), line)
             notes.places.append((StagePlace(run=run, step=0 if step is None else step), line))
-            go, inside = run if step is None else f"{run}@{step}", []
+            go = run if step is None else f"{run}@{step}"
+            inside = []
         elif token.type == "link_close" and go is not None:
             given = {"type": "button", "class": "pick", "data-go": go, "aria-pressed": "false"}
             picks.append(element("button", given, escape("".join(inside))))

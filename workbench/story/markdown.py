@@ -89,7 +89,10 @@ def in_home(markdown: str, home: str) -> str:
 def sections(markdown: str) -> list[Section]:
     """Return the parts of page.md; a line within a block of code is no heading."""
     closed: list[Section] = []
-    level, title, attributes, first = 0, "", Attributes(), 1
+    level = 0
+    title = ""
+    attributes = Attributes()
+    first = 1
     lines: list[str] = []
     fenced = False
     for number, line in enumerate(markdown.splitlines(), 1):
@@ -100,9 +103,11 @@ def sections(markdown: str) -> list[Section]:
             continue
         closed.append(Section(level, title, attributes, "\n".join(lines), first))
         parts = HEADING.match(heading[2])
-        level, title = len(heading[1]), parts["words"] if parts else heading[2]
+        level = len(heading[1])
+        title = parts["words"] if parts else heading[2]
         attributes = Attributes.read(parts["attributes"] or "") if parts else Attributes()
-        first, lines = number, []
+        first = number
+        lines = []
     closed.append(Section(level, title, attributes, "\n".join(lines), first))
     return [section for section in closed if section.level or section.text.strip()]
 

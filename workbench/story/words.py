@@ -115,7 +115,8 @@ class Words:
 
 def _text(tokens: list[Any], start: int) -> str:
     """Return the text between a span's opening and its end."""
-    depth, parts = 0, list[str]()
+    depth = 0
+    parts = list[str]()
     for token in tokens[start:]:
         depth += (token.type == "span_open") - (token.type == "span_close")
         if depth == 0:

@@ -80,7 +80,8 @@ class PageConnection:
 
     def _request(self, request: Mapping[str, Any]) -> None:
         self._requests.add(request)
-        self.acted, self._waits = self._loop.time(), True
+        self.acted = self._loop.time()
+        self._waits = True
         self._wake.set()
 
     def leave(self) -> None:
@@ -137,7 +138,8 @@ class PageConnection:
             except InputError as error:
                 tell_terminal(error)
                 await self._tell(tell="trouble", text=str(error))
-        news, self._news = self._news, []
+        news = self._news
+        self._news = []
         for told in news:
             await self._tell(**told)
         session = self.session
@@ -200,7 +202,9 @@ class PageConnection:
 
     async def run(self, message: Mapping[str, Any]) -> None:
         """Open a preset, or the default, at a step if one is named."""
-        session, name, step = self.session, str(message.get("run", "")), message.get("step")
+        session = self.session
+        name = str(message.get("run", ""))
+        step = message.get("step")
         if session is None:
             return
         question = next(
@@ -246,7 +250,8 @@ class PageConnection:
 
     async def forget(self, message: Mapping[str, Any]) -> None:
         """Go on without a file of one's own."""
-        session, name = self.session, message.get("field")
+        session = self.session
+        name = message.get("field")
         if session is not None and name in paths_of(session.lesson.params):
             session.change(**{str(name): None})
 
@@ -292,7 +297,8 @@ class PageConnection:
         """Set the params that a click in the scene picks: the ray of `p_origin` (3,) and `v_ray`
         (3,), in the world.
         """
-        session, ray = self.session, _ray(message)
+        session = self.session
+        ray = _ray(message)
         look = None if session is None else session.look()
         if look is not None and session is not None and ray is not None:
             values = await self.runs.stepping.do(picked_params, look.params, look.scene, *ray)

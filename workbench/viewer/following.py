@@ -108,7 +108,8 @@ class Following:
                 lesson = self.watched.lesson
             data = None if trouble is not None else lesson_data(lesson)
         except InputError as error:
-            trouble, data = error, None
+            trouble = error
+            data = None
         self._trouble = trouble
         if trouble is not None:
             tell_terminal(trouble)
@@ -120,7 +121,8 @@ class Following:
             self._to_check.set()
 
     def _go_on(self, after: Lesson, news: dict[str, Any] | None = None) -> None:
-        before, self._lesson = self._lesson, after
+        before = self._lesson
+        self._lesson = after
         self._replace(before, after)
         for page in self._pages():
             page.go_on(before, after, news)

@@ -45,7 +45,8 @@ class Patience:
             connection: self._since.get(connection, (None, clock)) for connection in connections
         }
         for connection in connections:
-            state, since = _waits_for(connection), self._since[connection][1]
+            state = _waits_for(connection)
+            since = self._since[connection][1]
             if state is None or state != self._since[connection][0]:
                 self._since[connection] = state, clock
             elif clock - since >= self._seconds:

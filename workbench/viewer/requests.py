@@ -65,7 +65,8 @@ class Requests:
 
     def take(self) -> list[dict[str, Any]]:
         """Return what is wished for; then nothing is."""
-        waiting, self._waiting = self._waiting, {}
+        waiting = self._waiting
+        self._waiting = {}
         return list(waiting.values())
 
     def __len__(self) -> int:

@@ -83,7 +83,8 @@ class Rules:
 
     def refusal(self, asked: HTTPConnection) -> str | None:
         """Say why a request is refused, None where it is let in as far as Host and Origin say."""
-        host, origin = asked.headers.get("host", ""), asked.headers.get("origin")
+        host = asked.headers.get("host", "")
+        origin = asked.headers.get("origin")
         if not self.knows(host):
             return (
                 "This server is not known under that name. Behind a proxy, start it with --behind"

@@ -97,7 +97,8 @@ class SharedRuns:
     """
 
     def __init__(self, most_bytes: int = MOST_BYTES, threads: int = 2):
-        self.timelines, self.maker = Timelines(most_bytes=most_bytes), Maker()
+        self.timelines = Timelines(most_bytes=most_bytes)
+        self.maker = Maker()
         self.stepping, self.showing = Crew("stepping", 2), Crew("showing", 2)
         self.opening, self.asking = Crew("opening", 1), Crew("asking", 1)
         self.keeping = Crew("keeping", 1)
@@ -153,7 +154,8 @@ class SharedRuns:
             lessons: Those that are served.
             sleepers: Let go of the run of one page each, in this order, and tell whether they did.
         """
-        lessons, freed = tuple(lessons), False
+        lessons = tuple(lessons)
+        freed = False
         at_most = (
             self.timelines.bytes + self.maker.held()
         )  # arrays that two runs share are counted twice
@@ -164,12 +166,14 @@ class SharedRuns:
         if held > self._most_bytes:
             for cached in caches(lessons):
                 cached.cache_clear()
-            held, freed = self.held(lessons), True
+            held = self.held(lessons)
+            freed = True
         for sleep in sleepers:
             if held <= self._most_bytes:
                 break
             if sleep():
-                held, freed = self.held(lessons), True
+                held = self.held(lessons)
+                freed = True
         if freed:
             give_back()
         return held

@@ -67,7 +67,9 @@ class Scheduler:
         self._turns: dict[Hashable, float] = {}  # when somebody was served last
         self._changed = threading.Condition()
         self._resting = 0  # threads that compute what nobody waits for
-        self._threads, self._stuck, self._open = threads, 0, True
+        self._threads = threads
+        self._stuck = 0
+        self._open = True
         self._began: dict[threading.Thread, float] = {}
         tell_when_waiting(self)
         for _ in range(threads):
@@ -188,7 +190,8 @@ class Scheduler:
         return BUSY if self._busy() else max(0.001, min(due))
 
     def _slice(self, job: _Job, calm: bool) -> None:
-        timeline, end = job.timeline, time.perf_counter() + SLICE
+        timeline = job.timeline
+        end = time.perf_counter() + SLICE
         awaited = [k for k in tuple(job.wanted.values()) if k >= len(timeline)]
         nearest = min(awaited, default=None)
         try:
@@ -209,8 +212,11 @@ class Scheduler:
 
     def _served(self, job: _Job) -> list[Callable[[], None]]:
         """Note that a run had its turn; return whom to tell of it."""
-        clock, known, finished = time.monotonic(), len(job.timeline), job.timeline.finished
-        job.running, job.served = False, clock
+        clock = time.monotonic()
+        known = len(job.timeline)
+        finished = job.timeline.finished
+        job.running = False
+        job.served = clock
         arrived = {asker for asker, k in job.wanted.items() if 0 <= k < known} - job.met
         job.met |= arrived
         for asker in job.wanted:

@@ -119,7 +119,9 @@ class Server:
         sys.setswitchinterval(SWITCH)
         self.port = listener.getsockname()[1]
         self.doors = Doors(host, self.port, self.rules.token)
-        self.runs, self._start, self._most_pages = SharedRuns(most_bytes), start, most_pages
+        self.runs = SharedRuns(most_bytes)
+        self._start = start
+        self._most_pages = most_pages
         self._lesson_pages = LessonPages()
         self.students: dict[str, PageConnection] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
@@ -200,7 +202,8 @@ class Server:
         while True:
             await asyncio.sleep(ROOM)
             self.runs.scheduler.relieve()
-            before, empty_for = empty_for, 0.0 if self.students else empty_for + ROOM
+            before = empty_for
+            empty_for = 0.0 if self.students else empty_for + ROOM
             if before < EMPTY <= empty_for:
                 self._pictures.clear()
                 await self.runs.asking.do(self.runs.let_go, list(self.lessons.values()))
@@ -224,7 +227,8 @@ class Server:
             return PlainTextResponse(
                 "As many pages are open as this server can bear. Try again in a while.", 503
             )
-        named, trouble = request.query_params.get("lesson"), None
+        named = request.query_params.get("lesson")
+        trouble = None
         if named is None and self._start is not None and "course" not in request.query_params:
             return RedirectResponse(
                 start_address(self._start, request.url.query), headers={"cache-control": "no-store"}
@@ -321,7 +325,8 @@ class Server:
 
     @staticmethod
     async def _listen(socket: WebSocket, student: PageConnection) -> None:
-        pace, heard = Pace(MOST_A_SECOND), False
+        pace = Pace(MOST_A_SECOND)
+        heard = False
         while True:
             message = await asyncio.wait_for(socket.receive(), None if heard else FIRST_WORD)
             if message["type"] == "websocket.disconnect":

@@ -33,7 +33,9 @@ class PageUpdates:
     """
 
     def __init__(self, runs: SharedRuns):
-        self._runs, self._wire, self.aim = runs, PageWire(runs.maker), Aim()
+        self._runs = runs
+        self._wire = PageWire(runs.maker)
+        self.aim = Aim()
         self.timeline: Timeline | None = None
         self._updates: RunUpdates | None = None  # of that run
         self._run = 0
@@ -88,7 +90,8 @@ class PageUpdates:
         Nothing where the page shows it: a caption that is another, or a run that is no longer
         wanted, draws nothing anew.
         """
-        lesson, head = look.lesson, {"run": self._run, "k": look.k}
+        lesson = look.lesson
+        head = {"run": self._run, "k": look.k}
         try:
             with Blaming(f"lesson {lesson.name}", lesson.draw):
                 if current or self._view is None or self._view[0] is not lesson:

@@ -105,7 +105,8 @@ def ticks(low: float, high: float, most: int = 5) -> np.ndarray:
     """Return round numbers inside [low, high], at most `most` of them."""
     power = 10.0 ** np.floor(np.log10((high - low) / most))
     for step in power * np.array([1.0, 2.0, 5.0, 10.0, 20.0]):
-        first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
+        first = np.ceil(low / step - 1e-9)
+        last = np.floor(high / step + 1e-9)
         if last - first < most:
             return np.arange(first, last + 1) * step + 0.0  # + 0.0 makes -0.0 a plain zero
     return np.array([low, high])

@@ -86,7 +86,8 @@ def axes_verdict(axes: np.ndarray, p: np.ndarray, hint: str = AXES_HINT, first: 
         hint: What to look at where it is wrong.
         first: How many of the axes the cloud decides.
     """
-    off, det = float(np.abs(axes.T @ axes - np.eye(3)).max()), float(np.linalg.det(axes))
+    off = float(np.abs(axes.T @ axes - np.eye(3)).max())
+    det = float(np.linalg.det(axes))
     if off > SKEWED:
         return fail(
             f"The columns are no frame: V^T V is off by {off:.2g}, right is the identity, up to"

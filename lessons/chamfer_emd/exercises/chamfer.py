@@ -69,7 +69,8 @@ def chamfer_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -
 @check(2)
 def both_sides_of_few_points(candidate: Function) -> Verdict:
     """Three points and two: 2 m² from a to b and 2.5 m² from b to a are 4.5 m²."""
-    p_a, p_b = np.array([[1.0, 0, 0], [0, 0, 1], [5, 2, 0]]), np.array([[0.0, 0, 0], [5, 0, 0]])
+    p_a = np.array([[1.0, 0, 0], [0, 0, 1], [5, 2, 0]])
+    p_b = np.array([[0.0, 0, 0], [5, 0, 0]])
     return value_verdict(
         candidate(p_a, p_b), 4.5, "m²", f"From b to a the squares are 1 and 4. {CHAMFER_HINT}"
     )

@@ -77,7 +77,8 @@ def mover_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> 
 @check(2)
 def short_pairs_can_cost(candidate: Function) -> Verdict:
     """Points at 0 and 1 m go to 0.9 and 1.9 m: 0.9 m each, though 1 and 0.9 are so close."""
-    p_a, p_b = np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0.9, 0, 0], [1.9, 0, 0]])
+    p_a = np.array([[0.0, 0, 0], [1, 0, 0]])
+    p_b = np.array([[0.9, 0, 0], [1.9, 0, 0]])
     return value_verdict(candidate(p_a, p_b), 0.9, "m", MOVER_HINT)
 
 
@@ -93,7 +94,8 @@ def two_lumps(candidate: Function) -> Verdict:
 @check(1)
 def shares_are_split(candidate: Function) -> Verdict:
     """Two points at 0 and 3 m, three at 0, 1 and 3 m: half a metre, and nobody is left out."""
-    p_a, p_b = np.array([[0.0, 0, 0], [3, 0, 0]]), np.array([[3.0, 0, 0], [0, 0, 0], [1, 0, 0]])
+    p_a = np.array([[0.0, 0, 0], [3, 0, 0]])
+    p_b = np.array([[3.0, 0, 0], [0, 0, 0], [1, 0, 0]])
     hint = (
         "A sixth of the mass goes 1 m, a sixth 2 m: take each point of a three times, each of b"
         " twice."
@@ -166,7 +168,8 @@ def nearest_both_ways(p_a: np.ndarray, p_b: np.ndarray) -> float:
 def greedy_by_row(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """First come, first served."""
     a, b = repeated(p_a, p_b)
-    D, total = all_distances(a, b), 0.0
+    D = all_distances(a, b)
+    total = 0.0
     for row in D:
         j = int(np.argmin(row))
         total += row[j]
@@ -181,7 +184,8 @@ def greedy_by_row(p_a: np.ndarray, p_b: np.ndarray) -> float:
 def closest_pair_first(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The closest pair first."""
     a, b = repeated(p_a, p_b)
-    D, total = all_distances(a, b), 0.0
+    D = all_distances(a, b)
+    total = 0.0
     for _ in a:
         i, j = np.unravel_index(np.argmin(D), D.shape)
         total += D[i, j]
@@ -257,7 +261,9 @@ def blurred(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Sinkhorn with a blur of 5 % of the largest distance."""
     D = all_distances(p_a, p_b)
     blur = 0.05 * D.max() + 1e-12
-    K, u, v = np.exp(-D / blur), np.ones(len(p_a)), np.ones(len(p_b))
+    K = np.exp(-D / blur)
+    u = np.ones(len(p_a))
+    v = np.ones(len(p_b))
     for _ in range(100):
         u = 1 / len(p_a) / (K @ v)
         v = 1 / len(p_b) / (K.T @ u)

@@ -71,7 +71,8 @@ def side_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> V
 @check(2)
 def side_of_few_points(candidate: Function) -> Verdict:
     """Three points look at two: squares of 1, 1 and 4 m² have a mean of 2 m²."""
-    p_a, p_b = np.array([[1.0, 0, 0], [0, 0, 1], [5, 2, 0]]), np.array([[0.0, 0, 0], [5, 0, 0]])
+    p_a = np.array([[1.0, 0, 0], [0, 0, 1], [5, 2, 0]])
+    p_b = np.array([[0.0, 0, 0], [5, 0, 0]])
     return value_verdict(candidate(p_a, p_b), 2.0, "m²", SIDE_HINT)
 
 
@@ -206,7 +207,8 @@ def paired_by_row(p_a: np.ndarray, p_b: np.ndarray) -> float:
 )
 def one_to_one(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Every point of b only once, as long as there are any."""
-    D, total = all_distances(p_a, p_b), 0.0
+    D = all_distances(p_a, p_b)
+    total = 0.0
     for row in D:
         j = int(np.argmin(row)) if np.isfinite(row).any() else -1
         total += row[j] ** 2 if j >= 0 else 0.0

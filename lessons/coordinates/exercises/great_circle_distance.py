@@ -60,7 +60,8 @@ def judged(
     candidate: Function, a: np.ndarray, b: np.ndarray, radius: float = EARTH, hint: str = HINT
 ) -> Verdict:
     """Judge distances as shares of the right ones, where these are short of half round."""
-    got, right = candidate(a, b, radius), globe.great_circle_distance(a, b, radius)
+    got = candidate(a, b, radius)
+    right = globe.great_circle_distance(a, b, radius)
     off = np.abs(got - right) / np.maximum(right, 1e-12 * radius)
     asked = [
         f"{numbers(p)} to {numbers(q)}, R = {numbers(np.array(radius))}"

@@ -52,7 +52,8 @@ def judged(
     candidate: Function, lines_a: np.ndarray, lines_b: np.ndarray, hint: str = HINT
 ) -> Verdict:
     """Judge points up to their factors, by the angle between the vectors in degrees."""
-    got, right = candidate(lines_a, lines_b), projective.meet(lines_a, lines_b)
+    got = candidate(lines_a, lines_b)
+    right = projective.meet(lines_a, lines_b)
     off = np.degrees(projective.angle_between_rays(got, right))
     asked = [f"{numbers(a)} and {numbers(b)}" for a, b in zip(lines_a, lines_b, strict=True)]
     return row_by_row(asked, got, right, off, hint, good=1e-5, fair=1e-2)
@@ -74,7 +75,9 @@ def lines_cross(candidate: Function) -> Verdict:
 @check(2)
 def upright_lines(candidate: Function) -> Verdict:
     """So do upright and level lines, and lines through the origin."""
-    upright, level, slanting = [1.0, 0, -2], [0.0, 2, 3], [1.0, -3, 0]
+    upright = [1.0, 0, -2]
+    level = [0.0, 2, 3]
+    slanting = [1.0, -3, 0]
     return judged(
         candidate,
         np.array([upright, level, slanting, upright, slanting]),

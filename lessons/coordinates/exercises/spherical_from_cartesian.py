@@ -62,7 +62,8 @@ def judged(candidate: Function, p: np.ndarray, hint: str = ANGLES) -> Verdict:
     """Judge coordinates by their largest difference, of r as a share of it, of angles in
     radians.
     """
-    got, right = candidate(p), curvilinear.spherical_from_cartesian(p)
+    got = candidate(p)
+    right = curvilinear.spherical_from_cartesian(p)
     size = np.column_stack([np.maximum(right[:, 0], 1e-12), np.ones((len(p), 2))])
     off = (np.abs(got - right) / size).max(axis=1)
     return row_by_row(
@@ -148,7 +149,8 @@ def atan_and_nan(p: np.ndarray) -> np.ndarray:
 )
 def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, also of 0 / 0."""
-    r, azimuth = np.linalg.norm(p, axis=1), np.arctan2(p[:, 1], p[:, 0])
+    r = np.linalg.norm(p, axis=1)
+    azimuth = np.arctan2(p[:, 1], p[:, 0])
     return columns(r, np.arccos(p[:, 2] / r), azimuth)
 
 
@@ -158,7 +160,8 @@ def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
 )
 def arccos_with_care(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, but not of 0 / 0."""
-    r, azimuth = np.linalg.norm(p, axis=1), np.arctan2(p[:, 1], p[:, 0])
+    r = np.linalg.norm(p, axis=1)
+    azimuth = np.arctan2(p[:, 1], p[:, 0])
     return columns(r, np.arccos(np.divide(p[:, 2], r, out=np.ones(len(p)), where=r > 0)), azimuth)
 
 

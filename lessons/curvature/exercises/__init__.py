@@ -81,7 +81,8 @@ def curvature_verdict(
         return fail(f"{said} {against(got[i].squeeze(), right[i].squeeze())}. {hint}")
     away = np.zeros(len(got))
     away[inside] = np.linalg.norm(got[inside] - right[inside], axis=1)
-    i, off = int(np.argmax(away)), away.max()
+    i = int(np.argmax(away))
+    off = away.max()
     told = f"At vertex {i} yours is {against(got[i].squeeze(), right[i].squeeze())}. {hint}"
     size = size or float(np.linalg.norm(right[inside], axis=1).max())
     verdict = band(

@@ -34,9 +34,11 @@ from workbench.geometry.meshes.laplacian import mixed_areas
 def defects_verdict(candidate: Function, mesh: Mesh, hint: str) -> Verdict:
     """Judge angle defects by the largest error in degrees, and say where it is."""
     p, faces = mesh
-    got, right = candidate(p, faces), curvature.angle_defects(p, faces)
+    got = candidate(p, faces)
+    right = curvature.angle_defects(p, faces)
     off = np.degrees(np.abs(got - right))
-    i, border = int(np.argmax(off)), on_boundary(faces, len(p))
+    i = int(np.argmax(off))
+    border = on_boundary(faces, len(p))
     place = "on the border" if border[i] else "inside the mesh"
     where = f"At vertex {i}, {place}, yours is {against(got[i], right[i])}. {hint}"
     return band("Largest error", float(off[i]), "degrees", good=0.01, fair=1.0, hint=where)
@@ -150,7 +152,8 @@ def degrees(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 )
 def repeated_indices(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """`total[faces[:, k]] += ...`: of the faces around a vertex only one counts, the last."""
-    total, angles = np.zeros(len(p)), face_angles(p, faces)
+    total = np.zeros(len(p))
+    angles = face_angles(p, faces)
     for k in range(3):
         total[faces[:, k]] += angles[:, k]
     return np.where(on_boundary(faces, len(p)), np.pi, 2 * np.pi) - total

@@ -74,7 +74,8 @@ def spheres(candidate: Function) -> Verdict:
     verdicts = []
     for radius in (0.5, 3.0):
         ball = surfaces.sphere(162, radius)
-        got, what = candidate(ball.p, ball.faces), f"Radius {radius:g} m: "
+        got = candidate(ball.p, ball.faces)
+        what = f"Radius {radius:g} m: "
         verdicts.append(
             curvature_verdict(got, ball.gaussian, GAUSSIAN_HINT, good=3, fair=12, what=what)
         )
@@ -137,7 +138,9 @@ def voronoi_in_obtuse_faces(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The Voronoi formula also where a face is obtuse."""
     area = np.zeros(len(p))
     for k in range(3):
-        i, j, o = faces[:, k], faces[:, (k + 1) % 3], faces[:, (k + 2) % 3]
+        i = faces[:, k]
+        j = faces[:, (k + 1) % 3]
+        o = faces[:, (k + 2) % 3]
         a, b = p[i] - p[o], p[j] - p[o]
         cotangent = (a * b).sum(axis=1) / np.linalg.norm(np.cross(a, b), axis=1)
         part = cotangent * ((p[i] - p[j]) ** 2).sum(axis=1) / 8

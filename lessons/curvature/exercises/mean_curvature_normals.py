@@ -89,7 +89,8 @@ def outward_on_spheres(candidate: Function) -> Verdict:
     verdicts = []
     for radius in (0.5, 3.0):
         ball = surfaces.sphere(162, radius)
-        got, right = candidate(ball.p, ball.faces), 2 / radius * ball.normals
+        got = candidate(ball.p, ball.faces)
+        right = 2 / radius * ball.normals
         verdicts.append(
             curvature_verdict(
                 got, right, NORMAL_HINT, good=3, fair=12, what=f"Radius {radius:g} m: "
@@ -200,7 +201,8 @@ def one_cotangent(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 )
 def mean_of_the_neighbours(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The vertex less the mean of its neighbours, over the area."""
-    total, count = np.zeros_like(p), np.zeros(len(p))
+    total = np.zeros_like(p)
+    count = np.zeros(len(p))
     for k in range(3):
         np.add.at(total, faces[:, k], p[faces[:, (k + 1) % 3]])
         np.add.at(count, faces[:, k], 1)

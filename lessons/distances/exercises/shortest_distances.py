@@ -132,7 +132,8 @@ def one_way(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> 
 )
 def first_visit(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
     """Breadth first, nothing is lowered."""
-    beside, d = _beside(edges, lengths, count), np.full(count, np.inf)
+    beside = _beside(edges, lengths, count)
+    d = np.full(count, np.inf)
     d[source], queue = 0.0, deque([source])
     while queue:
         node = queue.popleft()
@@ -192,7 +193,9 @@ def one_pass(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) ->
 )
 def next_edge_only(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
     """Prim's order: the shortest edge that leaves what is done."""
-    beside, d, done = _beside(edges, lengths, count), np.full(count, np.inf), np.zeros(count, bool)
+    beside = _beside(edges, lengths, count)
+    d = np.full(count, np.inf)
+    done = np.zeros(count, bool)
     heap = [(0.0, source, 0.0)]
     while heap:
         _, node, way = heapq.heappop(heap)

@@ -39,7 +39,8 @@ def a_pair(seed: int, n: int = 60, sigma: float = 1.0, *, ahead: float = 0.3) ->
     p_center = np.array([1.0, *rng.uniform(-0.2, 0.2, 1), rng.uniform(-ahead, ahead)])
     R = exp_so3(np.array([0.0, 0.1, 0.02]) + rng.normal(size=3) * 0.03)
     T_second_first = motion(R, -R @ p_center)
-    K_first, K_second = intrinsics(900.0, 512.0, 341.0), intrinsics(880.0, 500.0, 350.0, fy=885.0)
+    K_first = intrinsics(900.0, 512.0, 341.0)
+    K_second = intrinsics(880.0, 500.0, 350.0, fy=885.0)
     clean = [
         pixels_of(K, p) for K, p in ((K_first, p_first), (K_second, apply(T_second_first, p_first)))
     ]

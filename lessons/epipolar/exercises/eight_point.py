@@ -76,11 +76,9 @@ def judged(candidate: Function, pair: Pair, good: float, fair: float) -> Verdict
     """Judge F by how far points without noise are from their lines in both pictures, and tell of
     the farthest.
     """
-    F, x, y = (
-        candidate(pair.uv_first, pair.uv_second),
-        homogeneous(pair.clean_first),
-        homogeneous(pair.clean_second),
-    )
+    F = candidate(pair.uv_first, pair.uv_second)
+    x = homogeneous(pair.clean_first)
+    y = homogeneous(pair.clean_second)
     offs, feet = [], []
     with np.errstate(all="ignore"):
         for lines, p in ((y @ F, x), (x @ F.T, y)):

@@ -77,7 +77,8 @@ def some_motions(seed: int, n: int = 6) -> list[tuple[np.ndarray, np.ndarray]]:
     made = []
     for k in range(n):
         axis, t = rng.normal(size=(2, 3))
-        R, t = exp_so3(rng.uniform(0.1, 1.2) * axis / np.linalg.norm(axis)), t / np.linalg.norm(t)
+        R = exp_so3(rng.uniform(0.1, 1.2) * axis / np.linalg.norm(axis))
+        t = t / np.linalg.norm(t)
         made.append(((-1.0) ** k * rng.uniform(0.3, 4.0) * skew(t) @ R, motion(R, t)))
     return made
 

@@ -59,7 +59,8 @@ def textured(seed: int, h: int, w: int) -> np.ndarray:
 
 def judged(candidate: Function, image: np.ndarray, what: str) -> Verdict:
     """Judge by the largest difference, as a share of the largest response."""
-    got, right = candidate(image), keypoints.harris_response(image)
+    got = candidate(image)
+    right = keypoints.harris_response(image)
     off = np.abs(got - right)
     off = np.where(np.isfinite(off), off, np.inf)
     at = np.unravel_index(int(off.argmax()), off.shape)

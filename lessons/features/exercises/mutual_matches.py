@@ -77,7 +77,8 @@ def sets(seed: int, n: int, m: int, d: int, shift: float = 0.6) -> tuple[np.ndar
 
 def judged(candidate: Function, a: np.ndarray, b: np.ndarray, ratio: float, what: str) -> Verdict:
     """Judge row by row."""
-    got, right = candidate(a, b, ratio), matching.mutual_matches(a, b, ratio)
+    got = candidate(a, b, ratio)
+    right = matching.mutual_matches(a, b, ratio)
     off = np.flatnonzero(got != right)
     if not len(off):
         return full(f"{what}: all {len(right)} rows are right.")

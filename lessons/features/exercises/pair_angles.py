@@ -80,7 +80,8 @@ def pairs(seed: int, count: int, spread: float = 1.0) -> tuple[np.ndarray, ...]:
 
 def judged(candidate: Function, case: tuple[np.ndarray, ...], what: str) -> Verdict:
     """Judge by the largest difference of an angle; theta of half a turn may be either."""
-    got, right = candidate(*case), fpfh.pair_angles(*case)
+    got = candidate(*case)
+    right = fpfh.pair_angles(*case)
     off = got - right
     half = np.abs(right[:, 0]) > np.pi - 1e-6  # where rounding decides between -pi and pi
     off[half, 0] = (off[half, 0] + np.pi) % (2 * np.pi) - np.pi
@@ -131,7 +132,9 @@ def framed(
         d = d / np.linalg.norm(d, axis=1, keepdims=True)
     other = np.abs((n_i * d).sum(1)) < np.abs((n_j * d).sum(1))
     other = (other & swap)[:, None]
-    d, u, n = np.where(other, -d, d), np.where(other, n_j, n_i), np.where(other, n_i, n_j)
+    d = np.where(other, -d, d)
+    u = np.where(other, n_j, n_i)
+    n = np.where(other, n_i, n_j)
     v = np.cross(d, u)
     v = v / np.linalg.norm(v, axis=1, keepdims=True)
     return d, u, n, v, np.cross(u, v)

@@ -63,8 +63,10 @@ HINT = "An edge where i names j or j names i; nobody names itself."
 
 def found(candidate: Function, p: np.ndarray, k: int, what: str = "") -> Verdict:
     """Judge a graph entry by entry, and say which of its promises it breaks."""
-    got, right = candidate(p, k), graphs.knn_adjacency(p, k)
-    loops, lopsided = int(np.count_nonzero(np.diag(got))), int(np.count_nonzero(got != got.T))
+    got = candidate(p, k)
+    right = graphs.knn_adjacency(p, k)
+    loops = int(np.count_nonzero(np.diag(got)))
+    lopsided = int(np.count_nonzero(got != got.T))
     hint = HINT
     if loops:
         hint = f"{loops} points are their own neighbours. {HINT}"

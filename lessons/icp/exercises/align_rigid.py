@@ -89,7 +89,8 @@ def exact_pairs(candidate: Function) -> Verdict:
     verdicts = []
     for k, degrees in enumerate((20.0, 60.0, 120.0)):
         rng = np.random.default_rng(STUDENTS + k)
-        T, p_source = a_motion(rng, degrees), a_cloud(rng)
+        T = a_motion(rng, degrees)
+        p_source = a_cloud(rng)
         found = candidate(apply(T, p_source), p_source)
         verdicts.append(
             motion_verdict(found, T, f"{degrees:g} degrees apart. {ALIGN_HINT}", p=p_source)
@@ -102,7 +103,8 @@ def turned_rod(candidate: Function) -> Verdict:
     """A rod turned by up to 170 degrees is turned back, though its ends look alike: half a turn
     leaves a small residual.
     """
-    rng, verdicts = np.random.default_rng(STUDENTS + 5), []
+    rng = np.random.default_rng(STUDENTS + 5)
+    verdicts = []
     for degrees in (170.0, 120.0, -170.0):
         p_source = rng.normal(size=(80, 3)) * [0.6, 0.012, 0.01]
         T = motion(

@@ -101,7 +101,9 @@ def arrived(
     rng = np.random.default_rng(seed)
     p_true, n_target = planes(rng)
     p_true = p_true + np.array([aside, 0.0, 0.0])
-    p_target, off, c = slid(rng, p_true, n_target), a_motion(rng, degrees, metres), p_true.mean(0)
+    p_target = slid(rng, p_true, n_target)
+    off = a_motion(rng, degrees, metres)
+    c = p_true.mean(0)
     p_source = apply(off, p_true - c) + c
     T = np.eye(4)
     for _ in range(6):

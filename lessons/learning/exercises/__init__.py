@@ -29,7 +29,8 @@ def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "
     if off.max() <= 1e-6:
         return full(f"{what}all {got.size} numbers are right.")
     i = np.unravel_index(int(np.argmax(off)), off.shape)
-    place, wrong = ", ".join(str(int(k)) for k in i), int((off > 1e-6).sum())
+    place = ", ".join(str(int(k)) for k in i)
+    wrong = int((off > 1e-6).sum())
     said = (
         f"{what}{wrong} of {got.size} numbers are wrong: [{place}] is {against(got[i], right[i])}."
     )

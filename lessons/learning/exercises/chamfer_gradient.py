@@ -103,7 +103,8 @@ def _there(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 def _back(p: np.ndarray, q: np.ndarray) -> np.ndarray:
-    j, g = _nearest(p, q)[1], np.zeros_like(p)
+    j = _nearest(p, q)[1]
+    g = np.zeros_like(p)
     np.add.at(g, j, 2 * (p[j] - q))
     return g
 
@@ -132,7 +133,8 @@ def only_back(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 )
 def duplicates_lost(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Adds through an index with repeats."""
-    g, j = _there(p, q) / len(p), _nearest(p, q)[1]
+    g = _there(p, q) / len(p)
+    j = _nearest(p, q)[1]
     g[j] += 2 * (p[j] - q) / len(q)
     return g
 
@@ -179,7 +181,9 @@ def both_by_the_first_count(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 def of_distances(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Without squares."""
     i, j = _nearest(p, q)
-    v, w, g = p - q[i], p[j] - q, np.zeros_like(p)
+    v = p - q[i]
+    w = p[j] - q
+    g = np.zeros_like(p)
     np.add.at(g, j, w / np.maximum(np.linalg.norm(w, axis=1, keepdims=True), 1e-12) / len(q))
     return v / np.maximum(np.linalg.norm(v, axis=1, keepdims=True), 1e-12) / len(p) + g
 

@@ -175,7 +175,8 @@ def _by_area(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
 def faces_alike(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Picks by number."""
     k = np.minimum((u[:, 0] * len(faces)).astype(int), len(faces) - 1)
-    s, t = np.sqrt(u[:, 1]), u[:, 2]
+    s = np.sqrt(u[:, 1])
+    t = u[:, 2]
     return _placed(p, faces, k, np.column_stack([1 - s, s * (1 - t), s * t]))
 
 

@@ -73,7 +73,8 @@ def scale_verdict(
     candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = SCALE_HINT
 ) -> Verdict:
     """Judge a scale in per cent of the least-squares one."""
-    right, got = alignment.similarity_scale(p_target, p_source), candidate(p_target, p_source)
+    right = alignment.similarity_scale(p_target, p_source)
+    got = candidate(p_target, p_source)
     said = f"Scale {against(got, right, 5)}. {hint}"
     return band(
         "The scale is off by", 100 * abs(got / right - 1), "%", good=0.01, fair=0.2, hint=said

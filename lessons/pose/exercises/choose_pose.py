@@ -77,10 +77,8 @@ def judged(
     hint: str = HINT,
 ) -> Verdict:
     """Judge which candidate was chosen."""
-    got, right = (
-        candidate(candidates, p_world, xy),
-        camera_search.choose_pose(candidates, p_world, xy),
-    )
+    got = candidate(candidates, p_world, xy)
+    right = camera_search.choose_pose(candidates, p_world, xy)
     if np.abs(got - right).max() < 1e-9:
         return full(f"The right one of {len(candidates)} poses was chosen.")
     errors = reprojection_errors(np.stack([got, right]), p_world, xy)

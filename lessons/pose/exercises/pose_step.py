@@ -78,7 +78,8 @@ def a_start(
     """
     rng = np.random.default_rng(seed)
     T_true, p_world, xy = a_view(rng, n, aside=aside)
-    w, p_mean = rng.standard_normal(3), p_world.mean(axis=0)
+    w = rng.standard_normal(3)
+    p_mean = p_world.mean(axis=0)
     R = exp_so3(np.radians(degrees) * w / np.linalg.norm(w)) @ T_true[:3, :3]
     t = T_true[:3, :3] @ p_mean + T_true[:3, 3] + rng.uniform(-metres, metres, 3) - R @ p_mean
     return T_true, p_world, xy, motion(R, t), rng

@@ -64,7 +64,8 @@ COUNT_HINT = "An inlier has |n . p + d| <= inlier_distance."
 
 def a_layer(rng: np.random.Generator, n: int = 240) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return a plane, points around it, and their signed distances by which they were made."""
-    R, foot = exp_so3(rng.normal(size=3)), rng.uniform(-1.0, 1.0, 3)
+    R = exp_so3(rng.normal(size=3))
+    foot = rng.uniform(-1.0, 1.0, 3)
     signed = rng.uniform(-0.4, 0.6, n)
     p = foot + np.column_stack([rng.uniform(-1.5, 1.5, (n, 2)), signed]) @ R.T
     return np.append(R[:, 2], -R[:, 2] @ foot), p, signed
@@ -95,7 +96,8 @@ def above_and_below_a_table(candidate: Function) -> Verdict:
 @check(2)
 def slanted_planes(candidate: Function) -> Verdict:
     """Around slanted planes the points within 2 and 10 cm, at right angles, are counted."""
-    rng, verdicts = np.random.default_rng(STUDENTS + 20), []
+    rng = np.random.default_rng(STUDENTS + 20)
+    verdicts = []
     for _ in range(2):
         plane, p, signed = a_layer(rng)
         for t in (0.02, 0.1):

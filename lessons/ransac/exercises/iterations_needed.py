@@ -59,7 +59,8 @@ def needed_verdict(
     candidate: Function, w: float, s: int, confidence: float, hint: str = NEEDED_HINT
 ) -> Verdict:
     """Judge a number of samples: all for the smallest that is enough, half where it is one off."""
-    got, right = float(candidate(w, s, confidence)), iterations_needed(w, s, confidence)
+    got = float(candidate(w, s, confidence))
+    right = iterations_needed(w, s, confidence)
     case = f"{100 * w:g} % inliers, {s} in a sample, {100 * confidence:g} % confidence"
     if got == right:
         return full(f"{case}: {right:.12g} {'sample' if right == 1.0 else 'samples'}.")
@@ -67,7 +68,8 @@ def needed_verdict(
     if got < 1.0:
         return fail(f"{said} Nobody can do with less than one sample. {hint}")
     if got < right < np.inf:
-        spoilt, allowed = np.exp(got * np.log1p(-(w**s))), 1.0 - confidence
+        spoilt = np.exp(got * np.log1p(-(w**s)))
+        allowed = 1.0 - confidence
         if spoilt > 1.01 * allowed:
             said += (
                 f" After yours all are spoilt in {100 * spoilt:.3g} % of the runs,"

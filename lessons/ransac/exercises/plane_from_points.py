@@ -90,7 +90,8 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
     """
     if not np.isfinite(got).all():
         return fail(f"{what}: yours is {against(got, right)}. {NAN_HINT}")
-    length, size = float(np.linalg.norm(got[:3])), float(np.ptp(p, axis=0).max())
+    length = float(np.linalg.norm(got[:3]))
+    size = float(np.ptp(p, axis=0).max())
     if abs(length - 1.0) > NO_UNIT:
         said = (
             f"The length of your normal is {against(length, 1.0)}: distances come out as many times"

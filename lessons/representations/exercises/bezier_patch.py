@@ -144,7 +144,8 @@ def one_parameter(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
 )
 def wrong_binomials(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Twice for three times."""
-    k, times = np.arange(4), np.array([1, 2, 2, 1])
+    k = np.arange(4)
+    times = np.array([1, 2, 2, 1])
     bu, bv = (times * t[:, None] ** k * (1 - t[:, None]) ** (3 - k) for t in uv.T)
     return summed(control, bu, bv)
 

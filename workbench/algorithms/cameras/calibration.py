@@ -84,7 +84,9 @@ def calibrate(
         raise ValueError(f"two views at least are needed, not {len(uv)}")
     w, h = size
     N = np.array([[1 / w, 0, -0.5], [0, 1 / w, -0.5 * h / w], [0, 0, 1]])
-    Hs, rows, residuals = np.empty((0, 3, 3)), np.empty((0, 6)), np.empty((0, *uv.shape[1:]))
+    Hs = np.empty((0, 3, 3))
+    rows = np.empty((0, 6))
+    residuals = np.empty((0, *uv.shape[1:]))
     K = None
     for i, uv_view in enumerate(uv):
         H = fit_homography(p_board[:, :2], uv_view)
@@ -108,7 +110,8 @@ def calibrate(
     if K is None or guessed:
         K = intrinsics(float(w), (w - 1) / 2, (h - 1) / 2)
     Ts = np.stack([pose_from_homography(K, H) for H in Hs])
-    lens, first = NONE, residuals_of(K, NONE, Ts, p_board=p_board, uv=uv)
+    lens = NONE
+    first = residuals_of(K, NONE, Ts, p_board=p_board, uv=uv)
     yield State(
         phase="poses",
         Hs_image_board=Hs,

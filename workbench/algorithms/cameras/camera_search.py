@@ -103,7 +103,8 @@ def by_three_points(
     choose_pose: ChoosePose = choose_pose,
 ) -> Iterator[Searched]:
     """Yield the motions that three points leave open, and how the fourth chooses among them."""
-    p, rays = p_world[:3], unit_rays(xy[:3])
+    p = p_world[:3]
+    rays = unit_rays(xy[:3])
     state = Searched(phase="rays")
     yield state
     quartic = quartics(p[None], rays[None])[0]
@@ -176,7 +177,9 @@ def downhill(
         most: Steps taken at most.
         tolerance: It is settled where a step lowers the error by less than this share.
     """
-    stop, steps, error = Stop.NO_POSE, 0, np.inf
+    stop = Stop.NO_POSE
+    steps = 0
+    error = np.inf
     if T is not None:
         error = _error(T, p_world, xy)
         stop = Stop.MOST_STEPS if np.isfinite(error) else Stop.BEHIND
@@ -186,7 +189,8 @@ def downhill(
             lower = next(((s, T_s) for s, T_s in tried if _error(T_s, p_world, xy) < error), None)
             if lower is None:
                 near = _error(whole, p_world, xy) <= error * (1.0 + tolerance)
-                stop, steps = Stop.SETTLED if near else Stop.NOT_LOWER, steps - 1
+                stop = Stop.SETTLED if near else Stop.NOT_LOWER
+                steps = steps - 1
                 break
             (share, T), before = lower, error
             error = _error(T, p_world, xy)

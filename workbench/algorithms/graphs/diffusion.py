@@ -40,7 +40,8 @@ def heat(u: Float[np.ndarray, " n"], laplacian: Laplacian, dt: float, steps: int
     Steps longer than 2 over the largest eigenvalue make some part of u grow at every step.
     """
     flow = scipy.sparse.diags_array(-dt / laplacian.mass) @ laplacian.matrix
-    trace, exact = float(flow.diagonal().sum()), u
+    trace = float(flow.diagonal().sum())
+    exact = u
     yield Heat(0, u, exact)
     for step in range(1, steps + 1):
         u = u - dt * laplacian(u)

@@ -30,7 +30,9 @@ from workbench.tracing import traced
 
 Term = Literal["laplacian", "normal", "edge"]
 
-SAMPLES, MEASURED, RATE = 800, 3000, 0.03
+SAMPLES = 800
+MEASURED = 3000
+RATE = 0.03
 FINE = 20_000
 """Points on the mesh for the distance of what is farthest from it: far fewer miss thin parts."""
 
@@ -76,7 +78,9 @@ def fit_mesh(
         counts: After how many updates a state is yielded.
     """
     p, count = p.copy(), len(p)
-    L, edges, pairs = umbrella(faces, count), edges_of(faces), face_pairs(faces)
+    L = umbrella(faces, count)
+    edges = edges_of(faces)
+    pairs = face_pairs(faces)
     # the same at every state, so that curves do not tremble
     u = np.random.default_rng(0).random((3, MEASURED)).T
 

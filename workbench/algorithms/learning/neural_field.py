@@ -24,7 +24,9 @@ from workbench.tracing import traced
 
 Target = Literal["sdf", "clamped", "occupancy"]
 
-BATCH, RATE, CLAMP = 512, 5e-3, 0.1
+BATCH = 512
+RATE = 5e-3
+CLAMP = 0.1
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -116,7 +118,8 @@ def train_field(
             (absolute error), or inside (cross-entropy, the output being the logit of outside).
     """
     values = network.values.copy()
-    layers, gradients = layers_of(values, network.sizes), np.zeros_like(values)
+    layers = layers_of(values, network.sizes)
+    gradients = np.zeros_like(values)
     into = layers_of(gradients, network.sizes)
     x = encoded(p, network.frequencies)
 

@@ -37,7 +37,8 @@ def count_values(sizes: Sequence[int]) -> int:
 
 def layers_of(values: Float[np.ndarray, " w"], sizes: Sequence[int]) -> Layers:
     """Return weights and biases of each layer, as views of the row of all numbers."""
-    layers, at = [], 0
+    layers = []
+    at = 0
     for into, out in pairwise(sizes):
         weights = values[at : at + into * out].reshape(into, out)
         at += into * out
@@ -98,7 +99,8 @@ def descend(
     """
     real = values.dtype.type
     moment, square = np.zeros_like(values), np.zeros_like(values)
-    done, losses = 0, []
+    done = 0
+    losses = []
     for count in counts:
         while done < max(count, 1):
             loss, slope = gradient()

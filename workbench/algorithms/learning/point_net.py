@@ -25,7 +25,11 @@ from workbench.tracing import traced
 Pool = Literal["max", "mean", "none"]
 Clouds = Float[np.ndarray, "b n 3"]
 
-POINTWISE, HEAD, FLAT, BATCH, RATE = (3, 16, 32, 64), 32, 128, 24, 6e-3
+POINTWISE = (3, 16, 32, 64)
+HEAD = 32
+FLAT = 128
+BATCH = 24
+RATE = 6e-3
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -162,7 +166,8 @@ def train_classifier(
 
     def gradient() -> tuple[float, np.ndarray]:
         clouds, of = draw(BATCH)
-        done, rows = network.run(clouds), np.arange(len(of))
+        done = network.run(clouds)
+        rows = np.arange(len(of))
         slope = softmax(done.head[-1])
         loss = -float(np.log(slope[rows, of] + 1e-300).mean())
         slope[rows, of] -= 1

@@ -22,13 +22,14 @@ from workbench.geometry.cameras.volume_rendering import (
 )
 from workbench.tracing import traced
 
-CELLS, SAMPLES, RAYS, RATE = 32, 40, 160, 0.25
+CELLS = 32
+SAMPLES = 40
+RAYS = 160
+RATE = 0.25
 # raw density beyond the grid and at the start; 1/m that one unit is
-OUTSIDE, LEAST, PER_UNIT = (
-    -6.0,
-    -2.0,
-    10.0,
-)
+OUTSIDE = -6.0
+LEAST = -2.0
+PER_UNIT = 10.0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -74,7 +74,8 @@ def regress(
     d = R_test.shape[1]
     sizes = (_inputs(R_test).shape[1], width, width, len(representation.start))
     values = new_values(sizes, rng)
-    layers, slopes = layers_of(values, sizes), np.empty_like(values)
+    layers = layers_of(values, sizes)
+    slopes = np.empty_like(values)
     into = layers_of(slopes, sizes)
     layers[-1][1][:] = representation.start
 

@@ -20,7 +20,8 @@ ChamferGradient = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """chamfer_gradient(p, q) -> the gradient of the Chamfer distance by p."""
 SetLoss = Literal["Chamfer", "earth mover's"]
 
-BATCH, RATE = 4, 0.03
+BATCH = 4
+RATE = 0.03
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -56,7 +57,8 @@ def learn_set(
     def gradient() -> tuple[float, np.ndarray]:
         nonlocal targets
         targets = np.stack([draw() for _ in range(BATCH)])
-        loss, slope = 0.0, np.zeros_like(p)
+        loss = 0.0
+        slope = np.zeros_like(p)
         for q in targets:
             if set_loss == "Chamfer":
                 loss += chamfer(p, q) / BATCH

@@ -111,14 +111,13 @@ def adjust(
     """
     free = np.arange(9) < 4 + coefficients
     shared = shared_numbers(K, lens)
-    R, t = Ts_camera_board[:, :3, :3], Ts_camera_board[:, :3, 3]
-    block, damping, accepted, stop, covariance = (
-        linearised(shared, R, t, p_board, uv),
-        1e-4,
-        True,
-        None,
-        None,
-    )
+    R = Ts_camera_board[:, :3, :3]
+    t = Ts_camera_board[:, :3, 3]
+    block = linearised(shared, R, t, p_board, uv)
+    damping = 1e-4
+    accepted = True
+    stop = None
+    covariance = None
     cost, weights = loss(block, corner)
     for iteration in range(max_iterations + 1):
         if iteration == max_iterations:

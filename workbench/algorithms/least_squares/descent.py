@@ -87,7 +87,8 @@ def damped_step(
 
     Reference: Marquardt, An algorithm for least-squares estimation of nonlinear parameters, 1963.
     """
-    size, k = np.linalg.norm(jacobian, axis=0), jacobian.shape[1]
+    size = np.linalg.norm(jacobian, axis=0)
+    k = jacobian.shape[1]
     if not (size > 0.0).all():
         raise np.linalg.LinAlgError("some unknown changes no residual")
     rows = (
@@ -121,7 +122,8 @@ def descend(
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 10.3; Madsen, Nielsen and
     Tingleff, Methods for non-linear least squares problems, 2004, section 3.2 (the gain ratio).
     """
-    unknown, is_damped = start, damping > 0.0
+    unknown = start
+    is_damped = damping > 0.0
     residuals, jacobian = linearise(unknown)
     moment = Descent(
         phase="start",
@@ -321,10 +323,8 @@ def descend_many(
             np.maximum(dampings / CHANGE, LEAST_DAMPING if damping else 0.0),
             dampings * CHANGE,
         )
-        unknowns, costs = (
-            np.where(taken[:, None], trials, unknowns),
-            np.where(taken, trial_costs, costs),
-        )
+        unknowns = np.where(taken[:, None], trials, unknowns)
+        costs = np.where(taken, trial_costs, costs)
         residuals = np.where(taken[:, None], trial_residuals, residuals)
         jacobians = np.where(taken[:, None, None], trial_jacobians, jacobians)
         yield Descents(iteration, unknowns, costs, done)
@@ -335,7 +335,8 @@ def descend_many(
 def _damped_steps(residuals: np.ndarray, jacobians: np.ndarray, dampings: np.ndarray) -> np.ndarray:
     """Solve many damped problems by eigenvalues: where one is singular, its step is not finite."""
     transposed = np.swapaxes(jacobians, -1, -2)
-    normal, gradient = transposed @ jacobians, (transposed @ residuals[..., None])[..., 0]
+    normal = transposed @ jacobians
+    gradient = (transposed @ residuals[..., None])[..., 0]
     size = np.sqrt(np.diagonal(normal, axis1=-2, axis2=-1))
     scale = np.where(size > 0.0, 1.0 / size, 1.0)
     values, vectors = np.linalg.eigh(np.nan_to_num(scale[:, :, None] * normal * scale[:, None, :]))

@@ -249,7 +249,8 @@ def matcher(
     then no other can be nearer, by the triangle inequality (as Elkan does for k-means, 2003).
     """
     check_clouds(p_target, p_source)
-    tree, order = tree or tree_of(p_target), tree_of(p_source).indices
+    tree = tree or tree_of(p_target)
+    order = tree_of(p_source).indices
     searched_at = np.full(p_source.shape, np.inf)
     partner = np.empty(len(p_source), dtype=np.intp)
     free = np.zeros(len(p_source))  # how far a point may move from there and keep its partner

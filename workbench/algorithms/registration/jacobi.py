@@ -47,7 +47,9 @@ def jacobi(C: Float[np.ndarray, "n n"], tolerance: float = TOLERANCE) -> Iterato
     Args:
         C: A symmetric matrix.
     """
-    A, V, norm = C, np.eye(len(C)), np.linalg.norm(C)
+    A = C
+    V = np.eye(len(C))
+    norm = np.linalg.norm(C)
     yield State(A, V, None, 0.0, _off(A, norm))
     while True:
         aside = np.abs(np.triu(A, 1))
@@ -60,7 +62,8 @@ def jacobi(C: Float[np.ndarray, "n n"], tolerance: float = TOLERANCE) -> Iterato
         c, s = np.cos(angle), np.sin(angle)
         G = np.eye(len(A))
         G[[i, j, i, j], [i, j, j, i]] = c, c, -s, s
-        A, V = G.T @ A @ G, V @ G
+        A = G.T @ A @ G
+        V = V @ G
         yield State(A, V, (i, j), float(angle), _off(A, norm))
 
 

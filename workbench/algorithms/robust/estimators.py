@@ -198,7 +198,8 @@ def reweighted_fit(
     for iteration in range(1, max_iterations + 1):
         weights = loss.weights(distances, corner)
         estimate = model.refit(p, weights, estimate)
-        before, distances = distances, model.distances(estimate, p)
+        before = distances
+        distances = model.distances(estimate, p)
         stop = Settled.MAX_ITERATIONS if iteration == max_iterations else None
         if np.abs(distances - before).max() <= tolerance * corner:
             stop = Settled.CONVERGED

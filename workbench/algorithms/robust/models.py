@@ -169,7 +169,8 @@ def _solve_rigid(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _pair_distances(T_target_source: np.ndarray, pairs: np.ndarray) -> np.ndarray:
-    R, t = T_target_source[..., :3, :3], T_target_source[..., None, :3, 3]
+    R = T_target_source[..., :3, :3]
+    t = T_target_source[..., None, :3, 3]
     off = pairs[:, :3] @ np.swapaxes(R, -1, -2) + t - pairs[:, 3:]
     return np.sqrt(np.einsum("...ij,...ij->...i", off, off))
 

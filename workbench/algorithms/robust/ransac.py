@@ -167,10 +167,15 @@ def ransac(
     check_rows(p, model)
     if model.solve_each is not None:
         ahead = Ahead(p, model, samples, judge=judge, needed_for=needed_for, most=max_iterations)
-        model, samples, judge = replace(model, solve=ahead.solve), ahead.samples(), ahead.judge
+        model = replace(model, solve=ahead.solve)
+        samples = ahead.samples()
+        judge = ahead.judge
         needed_for = ahead.needed_for
-    best, needed, stop = None, max_iterations, Stop.SAMPLES_USED_UP
-    iteration, sample = 0, NO_ROWS
+    best = None
+    needed = max_iterations
+    stop = Stop.SAMPLES_USED_UP
+    iteration = 0
+    sample = NO_ROWS
     for iteration, sample in enumerate(samples, start=1):
         yield State("sample", iteration, needed, sample, None, None, best)
         estimates = model.solve(p[sample][None])

@@ -52,14 +52,18 @@ def prosac_samples(
     Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.1, eq. 3 (growth) and
     algorithm 1. There the pool stops growing at the termination length; here it goes on.
     """
-    n, order = len(quality), np.argsort(-quality, kind="stable")
+    n = len(quality)
+    order = np.argsort(-quality, kind="stable")
     _check(n, size)
-    pool, until = size, 1
+    pool = size
+    until = 1
     draws = grown_after * float(np.prod([(size - i) / (n - i) for i in range(size)]))
     for t in count(1):
         if t > until and pool < n:
             grown = draws * (pool + 1) / (pool + 1 - size)  # eq. 3
-            pool, until, draws = pool + 1, until + ceil(grown - draws), grown
+            pool = pool + 1
+            until = until + ceil(grown - draws)
+            draws = grown
         if t > until:  # every row is in the pool: uniform from here on
             yield order[draw_samples(n, size, 1, rng=rng)[0]]
         else:

@@ -55,8 +55,11 @@ def build_tree(
     """
     if len(p) == 0:
         raise ValueError("no points to sort into a tree")
-    columns, order = np.ascontiguousarray(p.T), np.arange(len(p))
-    first, last, known = np.array([0]), np.array([len(p)]), 0
+    columns = np.ascontiguousarray(p.T)
+    order = np.arange(len(p))
+    first = np.array([0])
+    last = np.array([len(p)])
+    known = 0
     low, high = low[None], high[None]
     levels = []
     while len(first):  # all cells of one depth
@@ -87,7 +90,9 @@ def _cut_cells(
     Cells of one size, of which a depth has two at most, are cut side by side. The points come as
     columns: the least and largest along a row of a block are found in a tenth of the time.
     """
-    sizes, axis, cut = last - first, np.full(len(first), -1), np.zeros(len(first))
+    sizes = last - first
+    axis = np.full(len(first), -1)
+    cut = np.zeros(len(first))
     for size in np.unique(sizes[sizes > leaf]).tolist():
         cells = np.flatnonzero(sizes == size)
         span = first[cells, None] + np.arange(size)
@@ -123,8 +128,12 @@ class Visit:
 def search(tree: Tree, q: Float[np.ndarray, " d"]) -> Iterator[Visit]:
     """Yield the cells that a search for the nearest point looks into: first down, then back up."""
     axes, cuts, children = tree.axis.tolist(), tree.cut.tolist(), tree.children.tolist()
-    first, last, at = tree.first.tolist(), tree.last.tolist(), q.tolist()
-    best, nearest, looked = np.inf, -1, 0
+    first = tree.first.tolist()
+    last = tree.last.tolist()
+    at = q.tolist()
+    best = np.inf
+    nearest = -1
+    looked = 0
     passed: tuple[int, ...] = ()
     # cell, its squared distance, axis by axis
     waiting: list[tuple[int, float, dict[int, float]]] = [(0, 0.0, {})]
@@ -142,7 +151,8 @@ def search(tree: Tree, q: Float[np.ndarray, " d"]) -> Iterator[Visit]:
         k = int(away.argmin())
         looked += len(away)
         if away[k] < best:
-            best, nearest = float(away[k]), first[cell] + k
+            best = float(away[k])
+            nearest = first[cell] + k
         while waiting and waiting[-1][1] >= best:
             passed += (waiting.pop()[0],)
         yield Visit(cell=cell, looked=looked, nearest=nearest, distance=best**0.5, passed=passed)

@@ -64,7 +64,8 @@ def grow_octree(
     `distance` is the signed distance of points (n, 3) to the surface; `low` and `edge` are the
     cube's.
     """
-    cells, parents = np.zeros((1, 3), dtype=np.intp), 0
+    cells = np.zeros((1, 3), dtype=np.intp)
+    parents = 0
     children = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1], indexing="ij"), axis=-1).reshape(8, 3)
     bits = np.zeros((1, 1, 1), dtype=bool)
     for level in range(depth + 1):

@@ -197,5 +197,6 @@ def _largest_finite(cost: np.ndarray) -> float:
 def _neighbours(values: np.ndarray, down: int, right: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the values of both pixels of all pairs that are one such step apart."""
     h, w = values.shape
-    left, stop = max(-right, 0), w - max(right, 0)
+    left = max(-right, 0)
+    stop = w - max(right, 0)
     return values[: h - down, left:stop], values[down:, left + right : stop + right]

@@ -83,14 +83,16 @@ def march(
     d[1:-1, 1:-1] = start
     inner = np.zeros((n + 2, m + 2), bool)
     inner[1:-1, 1:-1] = free
-    flat, width = d.ravel(), m + 2
+    flat = d.ravel()
+    width = m + 2
     rows = slice(width, -width)  # without the rim's: places are counted in these
     own = flat[rows]
     open_ = (inner & ~np.isfinite(d)).ravel()[rows]  # may still fall; what was given stays
     steps = np.array([0, 2 * width, width - 1, width + 1])[:, None]  # to the neighbours, in flat
     left, right, below, above = (flat[step:] for step in steps.ravel())
     asked = np.zeros(flat.shape, bool)
-    passed, reach = -np.inf, 0.0
+    passed = -np.inf
+    reach = 0.0
     yield March(start.copy(), np.isfinite(start), reach)
     while True:
         reach += band

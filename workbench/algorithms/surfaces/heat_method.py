@@ -120,7 +120,9 @@ def _factored(matrix: "scipy.sparse.csr_array") -> "scipy.sparse.linalg.SuperLU"
 
 def directions_of(measured: Corners, u: Float[np.ndarray, " v"]) -> Float[np.ndarray, "f 3"]:
     """Return -grad u / |grad u|, u linear on each face: grad u = sum_k u_k (N x e_k) / 2 A."""
-    e, N, at = measured.edges, measured.normals, u[measured.vertices]
+    e = measured.edges
+    N = measured.normals
+    at = u[measured.vertices]
     level = np.abs(at).max(axis=0)
     # far away heat is all but 0, its direction is not
     at = np.divide(at, level, out=np.zeros_like(at), where=level > 0)

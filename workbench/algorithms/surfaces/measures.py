@@ -61,7 +61,8 @@ def sum_faces(
         order: The faces, in the order in which they are added.
         counts: How many are added at each step, ever more.
     """
-    parts, areas = tetrahedra(p, faces, origin), face_areas(p, faces)
+    parts = tetrahedra(p, faces, origin)
+    areas = face_areas(p, faces)
     before = 0
     for count in counts:
         added = faces[order[:count]]

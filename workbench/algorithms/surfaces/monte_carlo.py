@@ -71,11 +71,15 @@ def throw_points(
 
     Stratified points are thrown anew at each step.
     """
-    counts, box_volume, estimates = tuple(counts), float(np.prod(high - low)), Estimates()
-    u, hit = unit_points(max(counts), 3, draw, rng=rng), np.empty(0, bool)
+    counts = tuple(counts)
+    box_volume = float(np.prod(high - low))
+    estimates = Estimates()
+    u = unit_points(max(counts), 3, draw, rng=rng)
+    hit = np.empty(0, bool)
     for count in counts:
         if draw == "stratified":
-            u, hit = unit_points(count, 3, draw, rng=rng), np.empty(0, bool)
+            u = unit_points(count, 3, draw, rng=rng)
+            hit = np.empty(0, bool)
         q = low + (high - low) * (u if draw == "stratified" else u[:count])
         hit = np.concatenate([hit, inside(q[len(hit) :])])
         volume, error = volume_by_chance(hit, box_volume)
@@ -187,7 +191,8 @@ def raise_dimension(highest: int, throws: int, rng: np.random.Generator) -> Iter
     for d in range(2, highest + 1):
         x = rng.uniform(-1, 1, (throws, d))
         inside = np.einsum("nd,nd->n", x, x) < 1
-        hits, shares = (*hits, int(inside.sum())), (*shares, ball_share(d))
+        hits = (*hits, int(inside.sum()))
+        shares = (*shares, ball_share(d))
         q = np.zeros((min(throws, MOST_KEPT), 3))
         q[:, : min(d, 3)] = x[: len(q), :3]
         yield Balls(

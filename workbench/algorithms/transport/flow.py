@@ -81,7 +81,8 @@ def flow(
     """
     if not (longest_step > 0 and share > 0):
         raise ValueError(f"longest_step and share are positive, not {longest_step} and {share}")
-    value, moved = distance(p_moving, p_target), 0.0
+    value = distance(p_moving, p_target)
+    moved = 0.0
 
     for step in range(max_steps + 1):
         slope = gradient(p_moving, p_target)

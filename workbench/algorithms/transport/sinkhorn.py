@@ -87,7 +87,8 @@ def sinkhorn_steps(
         )
     n, m = cost.shape
     f, g = tight_potentials(cost, np.zeros(m))
-    K, v = kernel(cost, f, g, regularisation), np.ones(m)
+    K = kernel(cost, f, g, regularisation)
+    v = np.ones(m)
     Kv = K @ v
 
     for sweep in range(1, max_sweeps + 1):
@@ -105,7 +106,8 @@ def sinkhorn_steps(
             return
         if too_wide:  # Schmitzer 2019, algorithm 2: absorb
             f, g = f_now, g_now
-            K, v = kernel(cost, f, g, regularisation), np.ones(m)
+            K = kernel(cost, f, g, regularisation)
+            v = np.ones(m)
             Kv = K @ v
 
 

@@ -75,7 +75,8 @@ def ply_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
 
 
 def _ply_header(header: str, name: str) -> tuple[str, list[_PlyElement]]:
-    kind, elements = "", []
+    kind = ""
+    elements = []
     for line in header.splitlines():
         match line.split():
             case ["format", kind, _]:
@@ -119,7 +120,8 @@ def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     if not {"x", "y", "z"} <= set(fields):
         raise InputError(f"{name}: the pcd file has no fields x, y and z, but {' '.join(fields)}")
     not_too_many(n, name)
-    body, kind = content[header_end.end() :], header_end[1].decode("ascii", "replace")
+    body = content[header_end.end() :]
+    kind = header_end[1].decode("ascii", "replace")
     if kind == "ascii":
         starts = dict(zip(fields, np.cumsum([0, *counts[:-1]]), strict=True))
         return _first_rows(body, n, [int(starts[axis]) for axis in "xyz"], name=name)
@@ -143,7 +145,9 @@ def _compressed_columns(
     not_too_large(unpacked, name)
     if unpacked != n * sum(np.dtype(t).itemsize * c for _, t, c in columns):
         raise InputError(f"{name}: the compressed size does not fit {n:,} points")
-    plain, start, values = _unpack_lzf(body[8 : 8 + packed], unpacked, name), 0, {}
+    plain = _unpack_lzf(body[8 : 8 + packed], unpacked, name)
+    start = 0
+    values = {}
     for field, kind, count in columns:
         values[field] = (
             np.frombuffer(plain, kind, n * count, start).astype(float).reshape(n, count)[:, 0]
@@ -154,7 +158,8 @@ def _compressed_columns(
 
 def _unpack_lzf(packed: bytes, size: int, name: str) -> bytes:
     """Undo LZF: up to 32 plain bytes, and copies of 3 to 264 from at most 8192 back."""
-    out, i = bytearray(), 0
+    out = bytearray()
+    i = 0
     try:
         while i < len(packed):
             control = packed[i]
@@ -189,7 +194,8 @@ def obj_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     Raises:
         InputError: If it holds a mesh, or a vertex line is not three numbers.
     """
-    points, faces = [np.empty((0, 3))], 0
+    points = [np.empty((0, 3))]
+    faces = 0
     for lines in _blocks(text_of(content, name)):
         rows = [line[2:] for line in lines if line.startswith(("v ", "v\t"))]
         faces += sum(line.startswith(("f ", "f\t")) for line in lines)
@@ -214,7 +220,9 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     """
     text = text_of(content, name)
     not_too_many(text.count("\n"), name, "lines")
-    points, separator, columns = [np.empty((0, 3))], "", None
+    points = [np.empty((0, 3))]
+    separator = ""
+    columns = None
     for lines in _blocks(text):
         rows = [row for row in lines if row.strip() and not row.lstrip().startswith(("#", "//"))]
         if rows and columns is None and rows[0].strip().isdigit():
@@ -274,7 +282,8 @@ def _blocks(text: str) -> Iterator[list[str]]:
 
 def _first_rows(body: bytes, n: int, columns: list[int], *, name: str) -> np.ndarray:
     """Read columns of the first n lines of a body of text."""
-    points, missing = [np.empty((0, 3))], n
+    points = [np.empty((0, 3))]
+    missing = n
     for lines in _blocks(body.decode("ascii", "replace")):
         rows = lines[:missing]
         if not rows:

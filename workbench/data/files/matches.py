@@ -15,7 +15,8 @@ from workbench.errors import InputError
 from workbench.geometry.motions import motion
 
 _FIRST, _SECOND = ("x1", "uv1", "p1", "first"), ("x2", "uv2", "p2", "second")
-_BOTH, _QUALITY = ("matches", "p"), ("quality", "score", "scores")
+_BOTH = ("matches", "p")
+_QUALITY = ("quality", "score", "scores")
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,7 +170,8 @@ def _camera(path: Path, arrays: dict[str, np.ndarray], name: str) -> np.ndarray 
 
 
 def _motion(path: Path, arrays: dict[str, np.ndarray]) -> np.ndarray | None:
-    R, t = _truth(path, arrays, ("R", "R_rel")), _truth(path, arrays, ("t", "t_rel"), (3,))
+    R = _truth(path, arrays, ("R", "R_rel"))
+    t = _truth(path, arrays, ("t", "t_rel"), (3,))
     if R is None or t is None:
         return None
     if np.abs(R @ R.T - np.eye(3)).max() > 1e-3 or np.linalg.det(R) < 0:

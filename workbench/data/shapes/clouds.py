@@ -37,7 +37,8 @@ def vase(count: int, rng: np.random.Generator) -> Cloud:
 def corner(count: int, rng: np.random.Generator) -> Cloud:
     """Return points on a floor and a wall, 2 m long: only the ends hold a slide along x."""
     floor = np.arange(count) < 0.55 * count
-    x, s = rng.uniform(-1.0, 1.0, count), rng.uniform(0.0, 0.8, count)
+    x = rng.uniform(-1.0, 1.0, count)
+    s = rng.uniform(0.0, 0.8, count)
     return np.column_stack([x, np.where(floor, s, 0.0) - 0.3, np.where(floor, 0.0, s) - 0.3])
 
 

@@ -138,15 +138,19 @@ def _towards(off: np.ndarray, reach: float, v_world: np.ndarray, *, flat: np.nda
 
 def _to_box(box: np.ndarray, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
     R_box_world = exp_so3(np.array([0.0, 0.0, -box[6]]))
-    p, v = R_box_world @ (p_world - box[:3]), R_box_world @ v_world
-    first, second = (-box[3:6] - p)[:, None] / v, (box[3:6] - p)[:, None] / v
+    p = R_box_world @ (p_world - box[:3])
+    v = R_box_world @ v_world
+    first = (-box[3:6] - p)[:, None] / v
+    second = (box[3:6] - p)[:, None] / v
     enter, leave = np.minimum(first, second).max(axis=0), np.maximum(first, second).min(axis=0)
     return np.where((enter < leave) & (enter > 0), enter, np.inf)
 
 
 def _to_pole(pole: np.ndarray, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
     off, (x, y, z) = p_world[:2] - pole[:2], v_world
-    a, b, c = x * x + y * y, off[0] * x + off[1] * y, off @ off - pole[2] ** 2
+    a = x * x + y * y
+    b = off[0] * x + off[1] * y
+    c = off @ off - pole[2] ** 2
     root = b * b - a * c
     s = (-b - np.sqrt(np.maximum(root, 0.0))) / a
     return np.where((root > 0) & (s > 0) & (p_world[2] + s * z < POLE_HEIGHT), s, np.inf)

@@ -46,9 +46,11 @@ def box(size: tuple[float, float, float] = (1.0, 0.7, 0.6)) -> Solid:
 def house() -> Solid:
     """Return a house with a door, ridge off the middle: no mirror and no turn keeps it."""
     p = np.vstack([box().p, [[0.15, -0.35, 1.0], [0.15, 0.1, 1.0]]])
-    foot, sides = (3, 2, 1, 0), ((0, 1, 5, 8, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+    foot = (3, 2, 1, 0)
+    sides = ((0, 1, 5, 8, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
     body = _of_polygons(p, (foot, *sides, (5, 6, 9, 8), (4, 8, 9, 7), (6, 7, 9)))
-    x, z = [-0.35, -0.35, -0.1, -0.1], [0.0, 0.4, 0.4, 0.0]
+    x = [-0.35, -0.35, -0.1, -0.1]
+    z = [0.0, 0.4, 0.4, 0.0]
     door = np.stack([x, np.full(4, -0.352), z], axis=1)  # just in front of the wall
     return Solid(body.p, body.faces, np.concatenate([body.lines, segments(door)]))
 

@@ -252,8 +252,10 @@ def _grid(
         np.arange(n_v if closed[1] else n_v - 1),
         indexing="ij",
     )
-    a, b = i * n_v + j, (i + 1) % n_u * n_v + j
-    c, d = (i + 1) % n_u * n_v + (j + 1) % n_v, i * n_v + (j + 1) % n_v
+    a = i * n_v + j
+    b = (i + 1) % n_u * n_v + j
+    c = (i + 1) % n_u * n_v + (j + 1) % n_v
+    d = i * n_v + (j + 1) % n_v
     faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)], axis=2).reshape(-1, 3)
     return np.c_[u.ravel(), v.ravel()], faces
 
@@ -281,7 +283,8 @@ def _geodesic(frequency: int) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray,
     p = np.einsum("wk,tkd->twd", weights, corners[triangles]).reshape(-1, 3)
     row = np.empty((frequency + 1, frequency + 1), dtype=np.intp)
     row[i, j] = np.arange(len(i))
-    up, down = i + j < frequency, i + j < frequency - 1
+    up = i + j < frequency
+    down = i + j < frequency - 1
     small = [
         np.stack([row[i, j], row[i + 1, j], row[i, j + 1]], axis=1) for i, j in [(i[up], j[up])]
     ]

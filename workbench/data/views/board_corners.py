@@ -75,14 +75,16 @@ def refined(
     Reference: Foerstner and Guelch 1987; OpenCV's cornerSubPix, whose fixed points these are.
     """
     dy, dx = np.mgrid[-half : half + 1, -half : half + 1].reshape(2, -1)
-    weight, corners = np.exp(-(dx**2 + dy**2) / half**2), uv.copy()
+    weight = np.exp(-(dx**2 + dy**2) / half**2)
+    corners = uv.copy()
 
     def level(v: int, u: int) -> np.ndarray:
         at = [corners[:, 1:] + dy + v, corners[:, :1] + dx + u]
         return scipy.ndimage.map_coordinates(grey, at, output=float, order=1, mode="nearest")
 
     for _ in range(ITERATIONS):
-        gx, gy = level(0, 1) - level(0, -1), level(1, 0) - level(-1, 0)
+        gx = level(0, 1) - level(0, -1)
+        gy = level(1, 0) - level(-1, 0)
         xx, xy, yy = weight * gx * gx, weight * gx * gy, weight * gy * gy
         A = np.stack(
             [xx.sum(axis=1), xy.sum(axis=1), xy.sum(axis=1), yy.sum(axis=1)], axis=1
@@ -129,7 +131,8 @@ def _tables(uv: np.ndarray, wave: np.ndarray, columns: int, rows: int) -> Iterat
     """Yield whole boards as tables of saddles, grown from one saddle and two beside it."""
     if len(uv) < columns * rows:
         return
-    tree, known = scipy.spatial.cKDTree(uv), set[int]()
+    tree = scipy.spatial.cKDTree(uv)
+    known = set[int]()
     for seed in range(min(len(uv), SEEDS)):
         if seed in known:
             continue  # of a board that was grown already
@@ -156,10 +159,12 @@ def _grown(
     uv: np.ndarray, wave: np.ndarray, tree: "scipy.spatial.cKDTree", grid: dict
 ) -> dict[tuple[int, int], int]:
     """Return the grid with all saddles that lie where those next to them let expect one."""
-    used, waiting = set(grid.values()), list(grid)
+    used = set(grid.values())
+    waiting = list(grid)
     for i, j in waiting:  # grows
         for di, dj in ((0, 1), (1, 0), (0, -1), (-1, 0)):
-            behind, place = (i - di, j - dj), (i + di, j + dj)
+            behind = (i - di, j - dj)
+            place = (i + di, j + dj)
             sides = [
                 ((i + s * dj, j + s * di), (i + di + s * dj, j + dj + s * di)) for s in (1, -1)
             ]

@@ -39,7 +39,8 @@ def seen(
     """
     uv = project(p_world, T_camera_world, K)
     low, high = uv.min(axis=0), uv.max(axis=0)
-    noise, anywhere = sigma * rng.standard_normal(uv.shape), rng.uniform(low, high, uv.shape)
+    noise = sigma * rng.standard_normal(uv.shape)
+    anywhere = rng.uniform(low, high, uv.shape)
     return Sightings(p_world, np.where(is_outlier[:, None], anywhere, uv + noise), is_outlier)
 
 
@@ -52,7 +53,8 @@ def points_on_box(
     size: Float[np.ndarray, "3"], n: int, rng: np.random.Generator
 ) -> Float[np.ndarray, "n 3"]:
     """Return points on the faces of a box about the origin, each pair of faces alike, metres."""
-    p, axis = rng.uniform(-0.5, 0.5, (n, 3)), rng.integers(0, 3, n)
+    p = rng.uniform(-0.5, 0.5, (n, 3))
+    axis = rng.integers(0, 3, n)
     p[np.arange(n), axis] = np.where(rng.random(n) < 0.5, -0.5, 0.5)
     return p * size
 

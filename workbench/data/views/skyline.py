@@ -44,7 +44,9 @@ def skyline() -> Skyline:
             if np.hypot(foot[0] - LANDMARK[0][0], foot[1] - LANDMARK[0][1]) > 50.0:
                 towers.append((foot, size))
     valley = chequered(np.arange(-14, 15), np.arange(1, 17), 100.0, height=VALLEY, colors=GREENS)
-    solids, edges, storeys = [valley, _mountains()], [], []
+    solids = [valley, _mountains()]
+    edges = []
+    storeys = []
     block = box((1.0, 1.0, 1.0))  # every tower is this one, stretched
     for k, ((x, y), size) in enumerate(towers):
         foot = np.array([x, y, VALLEY])
@@ -83,6 +85,7 @@ def _mountains() -> LitMesh:
     )
     foot = np.stack([x, 1300.0 + 60.0 * np.sin(x / 130.0), np.full(len(x), VALLEY)], axis=1)
     crest = np.stack([x, np.full(len(x), 1650.0), VALLEY + high], axis=1)
-    k, n = np.arange(len(foot) - 1)[:, None], len(foot)
+    k = np.arange(len(foot) - 1)[:, None]
+    n = len(foot)
     faces = np.concatenate([k + np.array(corners) for corners in ((0, 1, n + 1), (0, n + 1, n))])
     return lit((np.concatenate([foot, crest]), faces), (186, 190, 202))

@@ -82,7 +82,8 @@ class Ball:
     def depth(self, p_eye: np.ndarray, v: np.ndarray) -> np.ndarray:
         """Return per ray the depth of the nearer hit, or infinity."""
         to_center = np.array(self.p_center, float) - p_eye
-        a, b = np.einsum("...i,...i->...", v, v), v @ to_center
+        a = np.einsum("...i,...i->...", v, v)
+        b = v @ to_center
         root = b * b - a * (to_center @ to_center - self.radius**2)
         depth = np.where(root > 0, (b - np.sqrt(np.maximum(root, 0.0))) / a, np.inf)
         return np.where(depth > 0, depth, np.inf)

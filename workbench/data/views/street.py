@@ -49,11 +49,9 @@ class StreetScene:
 @functools.cache
 def street() -> StreetScene:
     """Return the street; it is the same each time."""
-    house, roof, door = (
-        _box((4.6, 11.0, 0.0), (3.2, 4.0, 2.4)),
-        _roof((4.6, 11.0, 2.4), (3.6, 4.4, 1.5)),
-        _door(),
-    )
+    house = _box((4.6, 11.0, 0.0), (3.2, 4.0, 2.4))
+    roof = _roof((4.6, 11.0, 2.4), (3.6, 4.4, 1.5))
+    door = _door()
     crate, tower = _box((-1.9, 6.0, 0.0), (1.0, 1.0, 1.0)), _box((-4.5, 14.0, 0.0), (1.6, 1.6, 5.0))
     sleepers = [_box((0.0, y, -0.02), (2.2, 0.25, 0.06)) for y in np.arange(1.0, 40.0, 1.5)]
     solids = {
@@ -171,14 +169,16 @@ def _ball(center: np.ndarray, radius: float, rings: int = 16) -> Mesh:
     p = np.concatenate([unit, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
     here = np.arange(turn)
     beside = (here + 1) % turn
-    top, bottom = np.full(turn, len(unit)), np.full(turn, len(unit) + 1)
+    top = np.full(turn, len(unit))
+    bottom = np.full(turn, len(unit) + 1)
     last = (rings - 2) * turn
     faces = [
         np.stack([top, here, beside], axis=1),
         np.stack([bottom, last + beside, last + here], axis=1),
     ]
     for ring in range(rings - 2):
-        a, b = ring * turn, (ring + 1) * turn
+        a = ring * turn
+        b = (ring + 1) * turn
         faces += [
             np.stack([a + here, b + here, b + beside], axis=1),
             np.stack([a + here, b + beside, a + beside], axis=1),

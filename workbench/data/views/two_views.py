@@ -24,7 +24,8 @@ from workbench.geometry.two_views.triangulation import midpoints
 
 SIZE = (480, 320)
 FOCAL = 420.0
-EYE, TARGET = np.array([-0.4, 0.5, 1.7]), np.array([0.3, 8.0, 1.2])
+EYE = np.array([-0.4, 0.5, 1.7])
+TARGET = np.array([0.3, 8.0, 1.2])
 NEAREST, FARTHEST = 3.0, 22.0  # metres, of what is matched of the street
 MODEL = 50.0  # of the far scene's metres one is drawn: nearly 200 m become the street's 4
 # radians that the second camera turns towards what both see, where it stands beside the first
@@ -121,7 +122,8 @@ def _taken(scene: What, baseline: float, heading: float) -> tuple[TwoViews, np.n
     uv = np.random.default_rng(0).integers(0, SIZE, (CANDIDATES, 2))
     z = first.depth[uv[:, 1], uv[:, 0]]
     between = np.flatnonzero((z > NEAREST) & (z < (np.inf if scene == "far" else FARTHEST)))
-    uv, z = uv[between].astype(float), z[between]
+    uv = uv[between].astype(float)
+    z = z[between]
     _, n_first = pixel_rays(uv, np.eye(4), K)
     p_first = n_first / n_first[:, 2:] * z[:, None]
     uv_second = project(p_first, T_second_first, K)

@@ -152,10 +152,8 @@ def parts(tree: ast.Module) -> Iterator[dict[str, Any]]:
         else:
             known |= dict(bound(node))
     for statement in tree.body:
-        defines, imports = (
-            isinstance(statement, DEFINITIONS),
-            isinstance(statement, (ast.Import, ast.ImportFrom)),
-        )
+        defines = isinstance(statement, DEFINITIONS)
+        imports = isinstance(statement, (ast.Import, ast.ImportFrom))
         read = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
         yield {
             "binds": sorted(set(names([statement]))),
@@ -207,7 +205,8 @@ def path_of(node: ast.expr, known: dict[str, str]) -> str | None:
 
 
 def _called_for(call: ast.Call, known: dict[str, str]) -> str | None:
-    name, text = path_of(call.func, known), text_of(call.args[-1])
+    name = path_of(call.func, known)
+    text = text_of(call.args[-1])
     name = call.func.id if name is None and isinstance(call.func, ast.Name) else name
     if text is None:
         return None

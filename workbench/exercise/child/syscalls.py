@@ -172,7 +172,9 @@ LOAD, AND, EQUAL, AT_LEAST, RETURN = (
     0x35,
     0x06,
 )
-ALLOW, EPERM, ENOSYS = 0x7FFF0000, 0x00050001, 0x00050000 | 38
+ALLOW = 0x7FFF0000
+EPERM = 0x00050001
+ENOSYS = 0x00050000 | 38
 Line = tuple[int, int, int, int]  # what, lines to skip if so, lines to skip if not, with
 ENDS: list[Line] = [(RETURN, 0, 0, answer) for answer in (EPERM, ENOSYS, ALLOW)]
 

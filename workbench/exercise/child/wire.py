@@ -104,7 +104,9 @@ def _describe(value: Any, blobs: list[bytes], depth: int) -> Any:
 
 class _Reader:
     def __init__(self, payload: memoryview):
-        self._payload, self._at, self._parts = payload, 0, 0
+        self._payload = payload
+        self._at = 0
+        self._parts = 0
 
     def value(self, described: Any, depth: int) -> Any:
         self._parts += 1

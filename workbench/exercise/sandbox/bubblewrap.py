@@ -7,7 +7,8 @@ import subprocess
 
 from workbench.exercise.sandbox.python import CHILD_FILES, DEVICES, FILES, Python
 
-FOLDER, FOLDER_BYTES = "/.student", 16 << 20
+FOLDER = "/.student"
+FOLDER_BYTES = 16 << 20
 CHILD = "/.child"  # names that no folder of packages has
 SECONDS = 10.0
 

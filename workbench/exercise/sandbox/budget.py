@@ -13,7 +13,10 @@ class CallBudget:
     """
 
     def __init__(self, seconds: float):
-        self._seconds, self._late, self._lost, self._spent = seconds, 0, 0, 0.0
+        self._seconds = seconds
+        self._late = 0
+        self._lost = 0
+        self._spent = 0.0
 
     @property
     def seconds(self) -> float:

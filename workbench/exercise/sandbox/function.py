@@ -106,7 +106,8 @@ class SandboxedFunction(StudentFunction):
             return reply.get("value")
 
     def _called(self, request: dict[str, Any]) -> dict[str, Any]:
-        seconds, how = self._budget.seconds if self._budget else self._seconds, ""
+        seconds = self._budget.seconds if self._budget else self._seconds
+        how = ""
         began = time.monotonic()
         try:
             return self._ask(request, seconds)
@@ -184,8 +185,10 @@ class SandboxedFunction(StudentFunction):
 
     def _end(self) -> int | None:
         """End the process; its exit code, where it ended by itself."""
-        process, self._process = self._process, None
-        pipe, self._pipe = self._pipe, None
+        process = self._process
+        self._process = None
+        pipe = self._pipe
+        self._pipe = None
         code = None
         if process is not None:
             code = process.poll()

@@ -184,7 +184,8 @@ def sqpnp(
     # Whose nearest rotation moves these points most alike
     starts = vectors @ (np.swapaxes(q, 1, 2) @ q)[:, None]
     R = nearest_rotation(np.concatenate([starts, -starts], axis=1))
-    rows, mean = np.arange(len(p))[:, None], q.mean(axis=1)
+    rows = np.arange(len(p))[:, None]
+    mean = q.mean(axis=1)
     for programs, kept in ((2, 2), (_PROGRAMS, 1)):
         R = _programs(omega, R, programs)
         r = R.reshape(*R.shape[:2], 9)
@@ -221,7 +222,8 @@ def ray_forms(xy: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray, "*k n 3 3"]:
 
 def _quadratic_form(q: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return omega (k, 9, 9), the cost being r' omega r of R's rows, and (k, 3, 9) from r to t."""
-    n, C = q.shape[1], ray_forms(xy)
+    n = q.shape[1]
+    C = ray_forms(xy)
     flat = C.reshape(len(q), n, 9)
     outer = (q[..., :, None] * q[..., None, :]).reshape(len(q), n, 9)
     omega = (

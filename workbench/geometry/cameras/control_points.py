@@ -16,7 +16,8 @@ from workbench.geometry.cameras.camera_motions import ray_forms, rms_reprojectio
 from workbench.geometry.cameras.planar_motions import FLAT
 from workbench.geometry.motions.alignment import nearest_rotation
 
-_STEPS, _NUDGE = 10, 1e-12
+_STEPS = 10
+_NUDGE = 1e-12
 
 
 def epnp(
@@ -42,7 +43,8 @@ def epnp(
     _, extents, axes = np.linalg.svd(q, full_matrices=False)
     if not (extents[:, 1] > 1e-9 * extents[:, 0]).all():
         raise ValueError("EPnP takes points that do not lie on one line")
-    flat, T = extents[:, 2] <= FLAT * extents[:, 1], np.tile(np.eye(4), (len(p), 1, 1))
+    flat = extents[:, 2] <= FLAT * extents[:, 1]
+    T = np.tile(np.eye(4), (len(p), 1, 1))
     for rows, directions in ((flat, 2), (~flat, 3)):
         if rows.any():
             arms = (extents[rows, :directions, None] / np.sqrt(q.shape[1])) * axes[
@@ -109,7 +111,8 @@ def _start(products: np.ndarray, squared: np.ndarray, N: int) -> np.ndarray:
 
 def _downhill(weights: np.ndarray, products: np.ndarray, squared: np.ndarray) -> np.ndarray:
     """Take Gauss-Newton steps on control points' squared distances from several starts (3.5)."""
-    c, along = products.shape[1], np.moveaxis(products, 3, 1)
+    c = products.shape[1]
+    along = np.moveaxis(products, 3, 1)
     for _ in range(_STEPS):
         half = (along @ weights[..., None, :, None])[..., 0]
         left = (half @ weights[..., None])[..., 0] - squared

@@ -127,7 +127,8 @@ def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray,
         >>> camera_center(look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3))).round(6).tolist()
         [0.0, -5.0, 1.0]
     """
-    R_camera_world, t = T_camera_world[:3, :3], T_camera_world[:3, 3]
+    R_camera_world = T_camera_world[:3, :3]
+    t = T_camera_world[:3, 3]
     return -R_camera_world.T @ t
 
 
@@ -184,7 +185,8 @@ def project(
                     x[x * x + y * y >= reach] = np.nan
                     y[np.isnan(x)] = np.nan
                 x, y = bend(x, y, *distortion)
-                x, y = K[0, 0] * x + K[0, 1] * y + K[0, 2], K[1, 1] * y + K[1, 2]
+                x = K[0, 0] * x + K[0, 1] * y + K[0, 2]
+                y = K[1, 1] * y + K[1, 2]
             uv[rows, 0], uv[rows, 1] = x, y
     return uv
 

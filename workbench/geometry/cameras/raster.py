@@ -149,7 +149,8 @@ def in_sight(
     depth: Float[np.ndarray, "h w"],
 ) -> Bool[np.ndarray, " n"]:
     """Return which points of surfaces a picture with this depth shows, without a lens, to 2 %."""
-    uv, z = project(p_world, T_camera_world, K), depths(p_world, T_camera_world)
+    uv = project(p_world, T_camera_world, K)
+    z = depths(p_world, T_camera_world)
     h, w = depth.shape
     inside = np.asarray(((uv >= 1.0) & (uv <= np.array([w, h]) - 2.0)).all(axis=1))
     column, row = np.where(inside[:, None], uv, 0.0).round().astype(int).T
@@ -268,7 +269,8 @@ def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
     bottom = np.minimum(np.floor(high[:, 1]), eye.height - 1).astype(np.intp)
     triangle, v = _ragged(np.maximum(bottom - top + 1, 0))
     v = v + top[triangle]
-    left, right = np.zeros(len(v)), np.full(len(v), eye.width - 1.0)
+    left = np.zeros(len(v))
+    right = np.full(len(v), eye.width - 1.0)
     slack = SLACK[eye.bends]
     for k in range(3):
         rise = edge[:, k, 1]
@@ -281,7 +283,8 @@ def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
     left, right = np.ceil(left).astype(np.intp), np.floor(right).astype(np.intp)
     # 1/Z at the first corner's u of each row, and from there on
     at_corner = w[triangle, 0] + w_v[triangle] * (v - uv[triangle, 0, 1])
-    corner, along = uv[triangle, 0, 0], w_u[triangle]
+    corner = uv[triangle, 0, 0]
+    along = w_u[triangle]
     # a sliver's slope may overshoot beyond its corners, where no depth is
     least, most = (over_corners(choose, w)[triangle] for choose in (np.minimum, np.maximum))
     span, u = _ragged(np.maximum(right - left + 1, 0))

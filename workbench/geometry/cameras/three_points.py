@@ -62,14 +62,17 @@ def three_point_lengths(
         of_sample, root = np.nonzero(real)
         v = v[of_sample, root]
         (a2, b2, c2), (cos_a, cos_b, cos_c) = sides[:, of_sample], cosines[:, of_sample]
-        p, q = (a2 - c2) / b2, 2.0 * (cos_c - v * cos_a)
+        p = (a2 - c2) / b2
+        q = 2.0 * (cos_c - v * cos_a)
         s1 = np.sqrt(b2 / (1.0 + v * v - 2.0 * v * cos_b))
         u = ((p - 1.0) * v * v - 2.0 * p * cos_b * v + 1.0 + p) / q
         twofold = np.flatnonzero(np.abs(q) < _TWOFOLD)  # both u of the side c belong to this v
         apart = np.sqrt(np.maximum(cos_c**2 - 1.0 + c2 / s1**2, 0.0))[twofold]
         u[twofold] = cos_c[twofold] + apart
         rows = np.concatenate([np.arange(len(u)), twofold])
-        u, v, s1 = np.concatenate([u, cos_c[twofold] - apart]), v[rows], s1[rows]
+        u = np.concatenate([u, cos_c[twofold] - apart])
+        v = v[rows]
+        s1 = s1[rows]
         of_sample = of_sample[rows]
         s, left = _polished(
             np.stack([s1, u * s1, v * s1], axis=1), sides[:, of_sample], cosines[:, of_sample]
@@ -141,7 +144,10 @@ def _sides_and_cosines(p_world: np.ndarray, n_camera: np.ndarray) -> tuple[np.nd
 def _quartics(sides: np.ndarray, cosines: np.ndarray) -> np.ndarray:
     (a2, b2, c2), (cos_a, cos_b, cos_c) = sides, cosines
     with np.errstate(all="ignore"):
-        p, q, r, w = (a2 - c2) / b2, (a2 + c2) / b2, (b2 - c2) / b2, (b2 - a2) / b2
+        p = (a2 - c2) / b2
+        q = (a2 + c2) / b2
+        r = (b2 - c2) / b2
+        w = (b2 - a2) / b2
         A4 = (p - 1) ** 2 - 4 * c2 / b2 * cos_a**2
         A3 = 4 * (p * (1 - p) * cos_b - (1 - q) * cos_a * cos_c + 2 * c2 / b2 * cos_a**2 * cos_b)
         A2 = 2 * (

@@ -12,7 +12,8 @@ from jaxtyping import Float, Int
 
 BINS = 11
 TIE = 1e-12  # normals that are as near to the line, but for rounding
-LOW, HIGH = np.array([-np.pi, -1.0, -1.0]), np.array([np.pi, 1.0, 1.0])
+LOW = np.array([-np.pi, -1.0, -1.0])
+HIGH = np.array([np.pi, 1.0, 1.0])
 
 PairAngles = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 """pair_angles(p_i, n_i, p_j, n_j) -> the three angles of each pair, (k, 3)."""
@@ -72,7 +73,8 @@ def fpfh(
     the distance. `pair_angles` is asked once for each pair, or twice where both normals are as near
     to the line. Which of the two sides the normals face counts.
     """
-    count, pairs = len(p), pairs_within(p, radius)
+    count = len(p)
+    pairs = pairs_within(p, radius)
     i, j = pairs.T
     line = p[j] - p[i]
     squared = np.einsum("ij,ij->i", line, line)
@@ -84,11 +86,14 @@ def fpfh(
     first, second = (np.abs(np.einsum("ij,ij->i", n[k], line)) for k in (i, j))
     tied = np.flatnonzero(np.abs(first - second) <= TIE * np.sqrt(squared))
     if len(tied):  # each point is its own source then, as where two points have one normal
-        back, i_tied, j_tied = bins.copy(), i[tied], j[tied]
+        back = bins.copy()
+        i_tied = i[tied]
+        j_tied = j[tied]
         back[tied] = _bins(
             np.asarray(pair_angles(p[j_tied], n[j_tied], p[i_tied], n[i_tied]), float)
         )
-    size, own = count * BINS, np.empty((count, 3 * BINS))
+    size = count * BINS
+    own = np.empty((count, 3 * BINS))
     for k in range(3):  # a pair counts at both of its points
         both = np.bincount(i * BINS + bins[:, k], minlength=size) + np.bincount(
             j * BINS + back[:, k], minlength=size

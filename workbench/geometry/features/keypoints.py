@@ -55,7 +55,8 @@ def strongest(
 
 def patches(image: Image, uv: Int[np.ndarray, "n 2"], side: int) -> Float[np.ndarray, "n d"]:
     """Return smoothed grey levels around pixels, of mean 0 and length 1; `side` is odd."""
-    smooth, d = scipy.ndimage.gaussian_filter(image, DERIVE), np.arange(side) - side // 2
+    smooth = scipy.ndimage.gaussian_filter(image, DERIVE)
+    d = np.arange(side) - side // 2
     levels = smooth[uv[:, 1, None, None] + d[:, None], uv[:, 0, None, None] + d].reshape(
         len(uv), side * side
     )
@@ -78,7 +79,8 @@ def iss_keypoints(
     Reference: Zhong 2009, section 2.1 (without its weights).
     """
     i, j = pairs_within(p, radius).T
-    v, count = p[j] - p[i], len(p)
+    v = p[j] - p[i]
+    count = len(p)
     neighbours = np.bincount(i, minlength=count) + np.bincount(j, minlength=count)
     M = np.empty((count, 3, 3))
     for a in range(3):

@@ -53,9 +53,11 @@ def nearest_both_ways(
         rows = slice(start, min(n, start + max(1, _CELLS // m)))
         some = a[rows]
         cost = squares - 2.0 * some @ b.T + np.einsum("ij,ij->i", some, some)[:, None]
-        here, columns = np.arange(len(some)), cost.argmin(axis=0)
+        here = np.arange(len(some))
+        columns = cost.argmin(axis=0)
         lower = cost[columns, np.arange(m)]
-        back, least = np.where(lower < least, columns + start, back), np.minimum(lower, least)
+        back = np.where(lower < least, columns + start, back)
+        least = np.minimum(lower, least)
         index[rows] = cost.argmin(axis=1)
         cost[here, index[rows]] = np.inf
         next_to_it[rows] = cost.argmin(axis=1)

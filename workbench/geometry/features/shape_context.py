@@ -46,5 +46,6 @@ def context_costs(
     a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]
 ) -> Float[np.ndarray, "n m"]:
     """Return half the chi-squared distance of each pair of histograms, from 0 to 1 (3.1)."""
-    sums, off = a[:, None] + b, a[:, None] - b
+    sums = a[:, None] + b
+    off = a[:, None] - b
     return 0.5 * (off * off / np.where(sums > 0, sums, 1.0)).sum(axis=-1)

@@ -71,7 +71,8 @@ def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
         axis = np.ptp(groups, axis=1).argmax(axis=1)
         order = np.take_along_axis(groups, axis[:, None, None], axis=2)[:, :, 0].argsort(axis=1)
         place = (order + np.arange(2**level)[:, None] * order.shape[1]).ravel()
-        face, middles = face.take(place), middles.take(place, axis=0)
+        face = face.take(place)
+        middles = middles.take(place, axis=0)
     corners = p[faces].take(face, axis=0)
     boxes = [np.stack([corners.min(axis=1), corners.max(axis=1)])]
     for _ in range(depth):
@@ -103,7 +104,8 @@ def mesh_distance(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
         box = np.zeros(len(rows), dtype=np.intp)
         for level, (low, high) in enumerate(mesh.boxes):
             if level:
-                rows, box = np.repeat(rows, 2), np.repeat(2 * box, 2)
+                rows = np.repeat(rows, 2)
+                box = np.repeat(2 * box, 2)
                 box[1::2] += 1
             kept = np.flatnonzero(
                 _squared_beyond(columns_of_q, rows, low, high=high, box=box) < best.take(rows)

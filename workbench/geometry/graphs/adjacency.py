@@ -34,7 +34,8 @@ def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.nd
     # the processor's cache.
     tree = scipy.spatial.cKDTree(p, balanced_tree=False, compact_nodes=False)
     order = tree.indices
-    d, index = np.empty((len(p), k + 1)), np.empty((len(p), k + 1), dtype=np.intp)
+    d = np.empty((len(p), k + 1))
+    index = np.empty((len(p), k + 1), dtype=np.intp)
     d[order], index[order] = tree.query(p[order], k + 1)
     others = index != np.arange(len(p))[:, None]
     # So many points at one place that it did not find itself

@@ -33,7 +33,8 @@ def stress_layout(
 
     Reference: Borg and Groenen 2005, section 8.6 (SMACOF), all weights being 1.
     """
-    p, n = classical_scaling(distances, dims), len(distances)
+    p = classical_scaling(distances, dims)
+    n = len(distances)
     # Nodes at one place would stay there
     p = p + 1e-3 * np.sin(np.arange(1.0, p.size + 1.0) ** 2).reshape(p.shape)
     for _ in range(iterations):

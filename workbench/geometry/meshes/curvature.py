@@ -44,7 +44,8 @@ class Curvatures:
 
 def curvatures(p: Points, faces: Faces) -> Curvatures:
     """Return K, H and the principal curvatures at every vertex, in one pass over the corners."""
-    measured, border = corners(p, faces), on_boundary(faces, len(p))
+    measured = corners(p, faces)
+    border = on_boundary(faces, len(p))
     areas, normals = mixed_areas_of(measured), normals_at_vertices(measured)
     defects = _angle_defects(measured, border)
     gaussian = _per_area(defects, areas, border)
@@ -71,7 +72,8 @@ def angle_defects(p: Points, faces: Faces) -> PerVertex:
 
 def gaussian_curvature(p: Points, faces: Faces) -> PerVertex:
     """Return K = angle defect / mixed area; nan on the border (Meyer et al. 2003, equation 9)."""
-    measured, border = corners(p, faces), on_boundary(faces, len(p))
+    measured = corners(p, faces)
+    border = on_boundary(faces, len(p))
     return _per_area(_angle_defects(measured, border), mixed_areas_of(measured), border)
 
 

@@ -66,7 +66,8 @@ def shortest_path(
     """
     if not np.isfinite(distances[goal]):
         return np.empty(0, int)
-    graph, path = length_graph(edges, lengths, len(distances)), [int(goal)]
+    graph = length_graph(edges, lengths, len(distances))
+    path = [int(goal)]
     while distances[path[-1]] > 0 and len(path) <= len(distances):
         row = slice(graph.indptr[path[-1]], graph.indptr[path[-1] + 1])
         near = graph.indices[row]
@@ -99,7 +100,8 @@ def with_points_on_edges(
     ]  # (f, count): of the edge opposite k
     pairs = [_chains(own, len(p), count)]
     for k in range(3):
-        first, second = on[k], on[(k + 1) % 3]
+        first = on[k]
+        second = on[(k + 1) % 3]
         pairs.append(
             np.stack(
                 [np.repeat(first, count, axis=1), np.tile(second, (1, count))], axis=-1
@@ -142,7 +144,9 @@ def grid_edges(side: int, neighbours: int) -> Edges:
     return np.concatenate(pairs)
 
 
-_PLUS, _CROSS, _KNIGHT = ((0, 1), (1, 0)), ((1, 1), (1, -1)), ((1, 2), (2, 1), (1, -2), (2, -1))
+_PLUS = ((0, 1), (1, 0))
+_CROSS = ((1, 1), (1, -1))
+_KNIGHT = ((1, 2), (2, 1), (1, -2), (2, -1))
 
 
 def distance_past_wall(

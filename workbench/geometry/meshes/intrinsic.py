@@ -73,7 +73,9 @@ class _Sides:
     def _angle(self, h: int) -> float:
         """Return the angle where a side begins, radians."""
         ahead = self.next[h]
-        after, opposite, before = self.length[h], self.length[ahead], self.length[self.next[ahead]]
+        after = self.length[h]
+        opposite = self.length[ahead]
+        before = self.length[self.next[ahead]]
         if after * before == 0:
             return 0.0
         return acos(
@@ -87,7 +89,10 @@ class _Sides:
         """
         t = self.twin[h]
         after = self.next
-        bc, ca, ad, db = after[h], after[after[h]], after[t], after[after[t]]
+        bc = after[h]
+        ca = after[after[h]]
+        ad = after[t]
+        db = after[after[t]]
         long, wide = self.length[ca], self.length[ad]
         turn = self._angle(h) + self._angle(ad)
         diagonal = sqrt(max(long**2 + wide**2 - 2 * long * wide * cos(turn), 0.0))

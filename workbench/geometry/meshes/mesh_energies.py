@@ -50,7 +50,8 @@ def normal_energy(
     n_first, n_second = n[pairs[:, 0]], n[pairs[:, 1]]
     by_n = scattered(np.concatenate([n_second, n_first]) / -len(pairs), pairs.T.ravel(), len(faces))
     by_N = np.where(length > _NO_AREA, by_n - n * (n * by_n).sum(axis=1, keepdims=True), 0) / length
-    by_b, by_c = np.cross(c - a, by_N), np.cross(by_N, b - a)
+    by_b = np.cross(c - a, by_N)
+    by_c = np.cross(by_N, b - a)
     slope = scattered(np.concatenate([-by_b - by_c, by_b, by_c]), faces.T.ravel(), len(p))
     return float((1 - (n_first * n_second).sum(axis=1)).mean()), slope
 

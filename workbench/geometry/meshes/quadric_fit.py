@@ -40,7 +40,9 @@ class Quadrics:
     def curvatures(self) -> tuple[PerVertex, PerVertex]:
         """Return K in 1/m^2 and H in 1/m (do Carmo, Curves and Surfaces, 3.3, example 5)."""
         _, fx, fy, a, fxy, b = self.coefficients.T
-        fxx, fyy, w2 = 2 * a, 2 * b, 1 + fx**2 + fy**2
+        fxx = 2 * a
+        fyy = 2 * b
+        w2 = 1 + fx**2 + fy**2
         gaussian = (fxx * fyy - fxy**2) / w2**2
         mean = -((1 + fy**2) * fxx - 2 * fx * fy * fxy + (1 + fx**2) * fyy) / (2 * w2**1.5)
         return gaussian, mean
@@ -92,7 +94,8 @@ def _fit(
     offsets: Int[np.ndarray, " w"],
 ) -> Float[np.ndarray, "v 6"]:
     """Solve the normal equations of vertices whose neighbours stand one after the other."""
-    times, starts = np.diff(offsets), offsets[:-1]
+    times = np.diff(offsets)
+    starts = offsets[:-1]
     step = p_neighbours - np.repeat(p, times, axis=0)
     x, y, height = (np.einsum("ek,ek->e", step, np.repeat(axis, times, axis=0)) for axis in frames)
     # Lengths in units of the neighbourhood's radius keep the six columns equally large.
@@ -101,7 +104,8 @@ def _fit(
     x, y, height = (v / np.repeat(radius, times) for v in (x, y, height))
     columns = np.stack([np.ones(len(x)), x, y, x * x, x * y, y * y])
     weighted = columns * np.exp(-(x * x + y * y))
-    left, right = np.empty((UNKNOWNS, UNKNOWNS, len(p))), np.empty((UNKNOWNS, len(p)))
+    left = np.empty((UNKNOWNS, UNKNOWNS, len(p)))
+    right = np.empty((UNKNOWNS, len(p)))
     for a in range(UNKNOWNS):
         right[a] = np.add.reduceat(weighted[a] * height, starts)
         for b in range(a + 1):

@@ -33,7 +33,8 @@ def oriented(faces: Faces) -> Faces:
     # Each face twice, as it is (i) and turned (i + f); an edge joins those that agree. Half-edge
     # k*f + i is one of face i.
     agree = half[edge, 0] != half[twin, 0]
-    a, b = np.concatenate([edge % f, edge % f + f]), np.where(agree, twin % f, twin % f + f)
+    a = np.concatenate([edge % f, edge % f + f])
+    b = np.where(agree, twin % f, twin % f + f)
     b = np.concatenate([b, (b + f) % (2 * f)])
     links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(2 * f, 2 * f))
     count, piece = scipy.sparse.csgraph.connected_components(links, directed=False)

@@ -63,7 +63,9 @@ def corners(p: Points, faces: Faces) -> Corners:
     """Return the measures at all corners of a mesh, in one pass."""
     f = len(faces)
     vertices = np.ascontiguousarray(faces.T)
-    edge, dots, normals = np.empty((3, 3, f)), np.empty((3, f)), np.empty((3, f))
+    edge = np.empty((3, 3, f))
+    dots = np.empty((3, f))
+    normals = np.empty((3, f))
     for start in range(0, f, BLOCK):
         block = slice(start, start + BLOCK)
         a, b, c = np.take(p, vertices[:, block], axis=0).transpose(0, 2, 1)
@@ -157,7 +159,8 @@ def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.n
     start, end = faces[around, (corner + 1) % 3], faces[around, (corner + 2) % 3]
     leaving = {int(a): i for i, a in enumerate(start)}
     first = [int(a) for a in start if a not in set(end.tolist())]
-    ring, order = [first[0] if first else int(start[0])], []
+    ring = [first[0] if first else int(start[0])]
+    order = []
     while ring[-1] in leaving:
         order.append(leaving.pop(ring[-1]))
         ring.append(int(end[order[-1]]))

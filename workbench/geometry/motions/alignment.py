@@ -113,7 +113,8 @@ def point_to_plane_step(
     # one line per coordinate: sums over short rows take three times as long
     p, q, n = (np.ascontiguousarray(v.T) for v in (p_source, p_target, n_target))
     centre = p.mean(axis=1)
-    normal_matrix, right_side = np.zeros((6, 6)), np.zeros(6)
+    normal_matrix = np.zeros((6, 6))
+    right_side = np.zeros(6)
     for some in chunks(len(p_source)):
         x, y, z = p[:, some] - centre[:, None]
         a, b, c = n[:, some]
@@ -204,7 +205,9 @@ def _moments(p_target: np.ndarray, p_source: np.ndarray, weights: np.ndarray | N
     # A pair without weight may be anywhere
     start = 0 if weights is None else int(np.argmax(weights > 0))
     first_target, first_source = p_target[start], p_source[start]
-    total, sum_target, sum_source = 0.0, np.zeros(3), np.zeros(3)
+    total = 0.0
+    sum_target = np.zeros(3)
+    sum_source = np.zeros(3)
     cross, source = np.zeros((3, 3)), np.zeros((3, 3))
     for rows in chunks(len(p_source)):
         a, b = p_target[rows] - first_target, p_source[rows] - first_source

@@ -28,7 +28,9 @@ def centroid_and_covariance(p: Cloud) -> tuple[Float[np.ndarray, "3"], Float[np.
     """
     if len(p) == 0:
         raise ValueError("a cloud without points has no centroid")
-    first, ones, products = p[0], np.ones(min(len(p), 8192)), np.zeros(9)
+    first = p[0]
+    ones = np.ones(min(len(p), 8192))
+    products = np.zeros(9)
     for rows in chunks(len(p)):
         x, y, z = (np.subtract(p[rows, k], first[k]) for k in range(3))
         unit = ones[: len(x)]

@@ -118,7 +118,8 @@ def _quaternion_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
 
 
 def _vector_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    a, K = np.linalg.norm(y, axis=1)[:, None, None], skew(y)
+    a = np.linalg.norm(y, axis=1)[:, None, None]
+    K = skew(y)
     safe = np.maximum(a, _FLAT)
     third = np.where(a < _FLAT, 1 / 6 - a * a / 120, (safe - np.sin(safe)) / safe**3)
     # Left Jacobian: dR = [J dy]x R

@@ -99,15 +99,19 @@ def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     aside = np.hypot(n_third[j], n_third[away])
     if k == i:
-        a, b = np.arctan2(n_third[j], -sign * n_third[away]), np.arctan2(aside, n_third[i])
+        a = np.arctan2(n_third[j], -sign * n_third[away])
+        b = np.arctan2(aside, n_third[i])
     else:
-        a, b = np.arctan2(-sign * n_third[j], n_third[k]), np.arctan2(sign * n_third[i], aside)
+        a = np.arctan2(-sign * n_third[j], n_third[k])
+        b = np.arctan2(sign * n_third[i], aside)
     if aside > _LOCKED:
         c = _angle_about(k, _about(j, b).T @ _about(i, a).T @ R)
     elif carried:
-        a, c = _angle_about(i, R @ _about(j, b).T), 0.0
+        a = _angle_about(i, R @ _about(j, b).T)
+        c = 0.0
     else:
-        a, c = 0.0, _angle_about(k, _about(j, b).T @ R)
+        a = 0.0
+        c = _angle_about(k, _about(j, b).T @ R)
     return np.array([a, b, c] if carried else [c, b, a])
 
 
@@ -230,7 +234,8 @@ def great_circle(
     angle = 2.0 * np.arctan2(np.linalg.norm(q_end - q_start), np.linalg.norm(q_end + q_start))
     if np.sin(angle) < 1e-12 and angle > 1.0:
         return q_start
-    near, far = np.sinc((1 - t) * angle / np.pi) * (1 - t), np.sinc(t * angle / np.pi) * t
+    near = np.sinc((1 - t) * angle / np.pi) * (1 - t)
+    far = np.sinc(t * angle / np.pi) * t
     q = near * q_start + far * q_end
     return q / np.linalg.norm(q)
 

@@ -43,7 +43,8 @@ def places_on_faces(
     reached = np.cumsum(np.sqrt(np.einsum("fx,fx->f", n, n)))
     last = np.searchsorted(reached, reached[-1])  # face with an area
     k = np.minimum(np.searchsorted(reached, u[:, 0] * reached[-1], side="right"), last)
-    s, t = np.sqrt(u[:, 1]), u[:, 2]
+    s = np.sqrt(u[:, 1])
+    t = u[:, 2]
     return k, np.stack([1 - s, s * (1 - t), s * t], axis=1)
 
 
@@ -139,9 +140,12 @@ def line_crossings(
         [((corner - middle) ** 2).sum(axis=1) for corner in (a, b, c)], axis=0
     ) * (1 + 1e-9)
     squared_middle = (middle**2).sum(axis=1)
-    start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
+    start = ends[:, 0]
+    along = ends[:, 1] - ends[:, 0]
     unit = along / np.linalg.norm(along, axis=1, keepdims=True)
-    lines, places, block = [], [], max(1, _PAIRS // len(faces))
+    lines = []
+    places = []
+    block = max(1, _PAIRS // len(faces))
     for first in range(0, len(ends), block):
         rows = slice(first, first + block)
         o, d = start[rows], unit[rows]

@@ -137,6 +137,7 @@ def _query(
         d, indices = tree.query(p)
         return np.asarray(indices), np.asarray(d)
     order = (tree_of_p or tree_of(p)).indices
-    indices, d = np.empty(len(p), np.intp), np.empty(len(p))
+    indices = np.empty(len(p), np.intp)
+    d = np.empty(len(p))
     d[order], indices[order] = tree.query(p[order], workers=-1)
     return indices, d

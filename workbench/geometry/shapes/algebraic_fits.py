@@ -44,18 +44,22 @@ def fit_algebraic(
         radius = np.sqrt(mean_z + np.square(center).sum(-1))
         return np.concatenate([center + origin[..., 0, :], radius[..., None]], axis=-1)
     unit = np.sqrt(mean_z)[..., None, None]  # lengths in which the points are of size one
-    q, z = q / unit, z / np.square(unit[..., 0])
+    q = q / unit
+    z = z / np.square(unit[..., 0])
     # The slope's constraint makes D what centres z, and leaves a plain least direction
     if kind == "Taubin":
         rows = np.concatenate([(z - 1.0)[..., None] / 2.0, q], axis=-1)
         a = np.linalg.svd(rows, full_matrices=False)[2][..., -1, :]
-        A, B = a[..., 0] / 2.0, a[..., 1:]
+        A = a[..., 0] / 2.0
+        B = a[..., 1:]
         D = -A
     else:
         a = _least_constrained(
             np.concatenate([z[..., None], q, np.ones((*z.shape, 1))], axis=-1), kind
         )
-        A, B, D = a[..., 0], a[..., 1:-1], a[..., -1]
+        A = a[..., 0]
+        B = a[..., 1:-1]
+        D = a[..., -1]
     with np.errstate(divide="ignore", invalid="ignore"):  # a line has A = 0
         center = -B / (2.0 * A[..., None])
         radius = np.sqrt(np.maximum(np.square(B).sum(-1) - 4.0 * A * D, 0.0)) / (2.0 * np.abs(A))

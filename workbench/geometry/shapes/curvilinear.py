@@ -122,7 +122,8 @@ def cell_edges(
     pieces: int = 8,
 ) -> Float[np.ndarray, "n 2 3"]:
     """Return the twelve edges of the cell between coordinates as segments, bent along angles."""
-    t, edges = np.linspace(0.0, 1.0, pieces + 1), []
+    t = np.linspace(0.0, 1.0, pieces + 1)
+    edges = []
     for along in range(3):
         for bits in np.ndindex(2, 2):
             share = np.insert(np.tile(np.array(bits, float), (len(t), 1)), along, t, axis=1)

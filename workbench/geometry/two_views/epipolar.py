@@ -39,7 +39,8 @@ def fundamental_from_cameras(
         >>> epipolar_lines(F, np.array([[0.3, 0.1]])).round(6).tolist()  # v = 0.1: the same row
         [[0.0, 1.0, -0.1]]
     """
-    R_second_first, t_second_first = T_second_first[:3, :3], T_second_first[:3, 3]
+    R_second_first = T_second_first[:3, :3]
+    t_second_first = T_second_first[:3, 3]
     if not np.linalg.norm(t_second_first) > 0.0:
         raise ValueError(
             "both cameras stand at one place: translation (0, 0, 0) has no epipolar geometry"
@@ -262,7 +263,8 @@ def sampson_slopes(
 
     x and y are homogeneous pixels in columns, `outer` their unchanging `outer_products(y, x)`.
     """
-    lines_y, lines_x = F @ x, F.T @ y
+    lines_y = F @ x
+    lines_x = F.T @ y
     lines_y[2] = lines_x[2] = 0.0
     squared = np.square(lines_y).sum(0) + np.square(lines_x).sum(0)
     inverse = 1.0 / np.sqrt(np.maximum(squared, _SMALLEST))
@@ -323,5 +325,6 @@ def _turns(w: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
 def _cofactors(A: np.ndarray) -> np.ndarray:
     """Return the matrix of cofactors."""
     wide = A.reshape(*A.shape[:-2], 9)[..., _AROUND]
-    first, other = wide[..., 1:4, 1:4] * wide[..., 2:, 2:], wide[..., 1:4, 2:] * wide[..., 2:, 1:4]
+    first = wide[..., 1:4, 1:4] * wide[..., 2:, 2:]
+    other = wide[..., 1:4, 2:] * wide[..., 2:, 1:4]
     return first - other

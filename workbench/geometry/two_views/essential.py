@@ -71,7 +71,8 @@ def refine_motion(
     S = normalising_similarity(np.concatenate([uv_first, uv_second]))
     x, y = S @ homogeneous(uv_first).T, S @ homogeneous(uv_second).T
     outer = outer_products(y, x)
-    left, right = np.linalg.inv(S @ K_second).T, np.linalg.inv(S @ K_first)
+    left = np.linalg.inv(S @ K_second).T
+    right = np.linalg.inv(S @ K_first)
 
     def linearise(unknown: _Motion) -> tuple[np.ndarray, np.ndarray]:
         R, t = unknown

@@ -59,7 +59,8 @@ def warped_grid(
     H_b_a: Float[np.ndarray, "3 3"], size: Float[np.ndarray, "2"], cells: int = 4, pieces: int = 8
 ) -> Float[np.ndarray, "n 2 2"]:
     """Return a grid over image a of this (width, height), cut in pieces, as segments in image b."""
-    t, ticks = np.linspace(0.0, 1.0, cells * pieces + 1), np.linspace(0.0, 1.0, cells + 1)
+    t = np.linspace(0.0, 1.0, cells * pieces + 1)
+    ticks = np.linspace(0.0, 1.0, cells + 1)
     lines = [np.column_stack([np.full_like(t, x), t]) for x in ticks]
     lines += [line[:, ::-1] for line in lines]
     ends = np.concatenate([segments(line * size) for line in lines])
@@ -213,7 +214,8 @@ def refine_homography(
     y = (T_b @ homogeneous(uv_b).T)[:2]
     h = (T_b @ H_b_a @ np.linalg.inv(T_a)).ravel()
     # The scale is of no account, so the largest entry stays as it is: its slopes come last
-    fixed, place = np.argmax(np.abs(h)), np.arange(9)
+    fixed = np.argmax(np.abs(h))
+    place = np.arange(9)
     place[fixed:] -= 1
     place[fixed] = 8
     free = np.arange(9) != fixed
@@ -221,7 +223,9 @@ def refine_homography(
     def linearise(h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         u, v, w = h.reshape(3, 3) @ x
         inverse = 1.0 / np.where(w == 0.0, _SMALLEST, w)
-        u, v, x_w = u * inverse, v * inverse, x * (root * inverse)
+        u = u * inverse
+        v = v * inverse
+        x_w = x * (root * inverse)
         slopes = np.zeros((9, 2, x.shape[1]))
         slopes[place[0:3], 0] = slopes[place[3:6], 1] = x_w
         slopes[place[6:9], 0], slopes[place[6:9], 1] = -u * x_w, -v * x_w

@@ -44,7 +44,8 @@ def rectify(
     Raises:
         ValueError: If the cameras stand at one place, or the baseline runs along the optical axes.
     """
-    R, t = T_second_first[:3, :3], T_second_first[:3, 3]
+    R = T_second_first[:3, :3]
+    t = T_second_first[:3, 3]
     length = np.linalg.norm(t)
     if not length > 0.0:
         raise ValueError("both cameras stand at one place: there is no baseline to turn them to")
@@ -127,7 +128,8 @@ def warp(
     x, y = x[inside], y[inside]
     column, row = np.minimum(x.astype(int), w - 2), np.minimum(y.astype(int), h - 2)
     across, down = (x - column)[:, None], (y - row)[:, None]
-    flat, at = image.reshape(-1, 3), row * w + column
+    flat = image.reshape(-1, 3)
+    at = row * w + column
     upper = flat[at] * (1.0 - across) + flat[at + 1] * across
     lower = flat[at + w] * (1.0 - across) + flat[at + w + 1] * across
     warped = np.full((u.size, 3), around, np.uint8)

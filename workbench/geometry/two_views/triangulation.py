@@ -49,15 +49,20 @@ def midpoints(
 
     Reference: Hartley and Sturm, Triangulation, CVIU 1997, section 5.3.
     """
-    R, t = T_second_first[:3, :3], T_second_first[:3, 3]
-    a, b = homogeneous(xy_first), homogeneous(xy_second) @ R
+    R = T_second_first[:3, :3]
+    t = T_second_first[:3, 3]
+    a = homogeneous(xy_first)
+    b = homogeneous(xy_second) @ R
     a /= np.sqrt(np.einsum("ij,ij->i", a, a))[:, None]
     b /= np.sqrt(np.einsum("ij,ij->i", b, b))[:, None]
     p_center = -t @ R
-    along_a, along_b, cosine = a @ p_center, b @ p_center, np.einsum("ij,ij->i", a, b)
+    along_a = a @ p_center
+    along_b = b @ p_center
+    cosine = np.einsum("ij,ij->i", a, b)
     sine = 1.0 - cosine * cosine
     with np.errstate(divide="ignore", invalid="ignore"):
-        depth_a, depth_b = (along_a - along_b * cosine) / sine, (along_a * cosine - along_b) / sine
+        depth_a = (along_a - along_b * cosine) / sine
+        depth_b = (along_a * cosine - along_b) / sine
     return 0.5 * (depth_a[:, None] * a + p_center + depth_b[:, None] * b)
 
 

@@ -12,7 +12,8 @@ def other_places(candidate: Function) -> Verdict:
     """Other places are right, across the date line, near the poles and nearly opposite, on a marble
     too.
     """
-    a, b = places(GRADERS(), 12), places(GRADERS() + 1, 12)
+    a = places(GRADERS(), 12)
+    b = places(GRADERS() + 1, 12)
     a[:3], b[:3] = (
         [[10.0, 179.5], [-40.0, 170.0], [89.0, 0.0]],
         [[12.0, -179.0], [-41.0, -170.0], [88.0, 180.0]],
@@ -35,7 +36,8 @@ def the_same_place(candidate: Function) -> Verdict:
         np.vstack([a, [[90.0, 20.0]], a, [[90.0, 20.0]]]),
         np.vstack([a, [[90.0, -70.0]], b, [[-90.0, 80.0]]]),
     )
-    got, right = candidate(a, b, EARTH), np.repeat([0.0, np.pi * EARTH], len(a) // 2)
+    got = candidate(a, b, EARTH)
+    right = np.repeat([0.0, np.pi * EARTH], len(a) // 2)
     asked = [f"{numbers(p)} to {numbers(q)}" for p, q in zip(a, b, strict=True)]
     hint = (
         "Near half way round, and near the start, an arc sine or cosine loses digits: take"

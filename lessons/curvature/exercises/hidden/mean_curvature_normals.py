@@ -27,7 +27,8 @@ def irregular_faces(candidate: Function) -> Verdict:
 @check(2, public=False)
 def plane_and_soap_film(candidate: Function) -> Verdict:
     """They vanish on a plane however it is cut, and on a catenoid, whose two curvatures cancel."""
-    sheet, film = irregular("plane", GRADERS(), 100), surfaces.catenoid(300)
+    sheet = irregular("plane", GRADERS(), 100)
+    film = surfaces.catenoid(300)
     hint = f"Flat or balanced means 0. {NORMAL_HINT}"
     return worst(
         curvature_verdict(
@@ -49,7 +50,8 @@ def turns_with_the_mesh(candidate: Function) -> Verdict:
     inside.
     """
     mesh = irregular("torus", GRADERS() + 5, 100)
-    right, R = curvature.mean_curvature_normals(mesh.p, mesh.faces), some_rotation(GRADERS() + 5)
+    right = curvature.mean_curvature_normals(mesh.p, mesh.faces)
+    R = some_rotation(GRADERS() + 5)
     p = mesh.p @ R.T + np.array([1.0, -4.0, 2.0])
     cases = (
         ("Turned: ", (p, mesh.faces), right @ R.T),

@@ -13,8 +13,10 @@ def two_cameras(candidate: Function) -> Verdict:
     rng = np.random.default_rng(GRADERS())
     verdicts = []
     for f, baseline in ((350.0, 0.06), (1200.0, 0.54)):
-        x, Z = rng.uniform(-1, 1, 40), rng.uniform(0.8, 40.0, 40)
-        seen_left, seen_right = f * x / Z, f * (x - baseline) / Z
+        x = rng.uniform(-1, 1, 40)
+        Z = rng.uniform(0.8, 40.0, 40)
+        seen_left = f * x / Z
+        seen_right = f * (x - baseline) / Z
         verdicts.append(depth_verdict(candidate(seen_left - seen_right, f, baseline), Z))
     return worst(verdicts)
 
@@ -45,10 +47,8 @@ def infinite_and_unknown(candidate: Function) -> Verdict:
         (-0.01, np.nan),
         (1e-6, 5e7),
     ]
-    wrong, lots = (
-        [],
-        candidate(np.array([[d for d, _ in wanted], [d for d, _ in wanted]]), 500.0, 0.1)[1],
-    )
+    wrong = []
+    lots = candidate(np.array([[d for d, _ in wanted], [d for d, _ in wanted]]), 500.0, 0.1)[1]
     for (d, right), in_a_map in zip(wanted, lots, strict=True):
         got = float(candidate(np.array([d, 10.0]), 500.0, 0.1)[0])
         alone = float(candidate(np.full(3, d), 500.0, 0.1)[1])

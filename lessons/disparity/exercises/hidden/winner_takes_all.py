@@ -30,10 +30,8 @@ def infinite_costs(candidate: Function) -> Verdict:
     d, _, x = np.indices(cost.shape)
     cost[x < d] = np.inf
     cost[:, 2, 3:5] = np.inf
-    hint, single = (
-        "inf is worse than any number.",
-        np.where(np.arange(12).reshape(1, 3, 4) % 3 == 0, np.inf, 1.0),
-    )
+    hint = "inf is worse than any number."
+    single = np.where(np.arange(12).reshape(1, 3, 4) % 3 == 0, np.inf, 1.0)
     verdicts = [
         map_verdict(candidate(c), np.argmin(c, axis=0), hint=hint) for c in (cost, 1e12 * cost)
     ]

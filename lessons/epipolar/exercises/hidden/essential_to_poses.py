@@ -24,7 +24,8 @@ def with_noise(candidate: Function) -> Verdict:
     """Of a matrix that is an essential one but for 0.3 % of noise, they are motions, and within 2.5
     degrees.
     """
-    rng, verdicts = np.random.default_rng(GRADERS() + 1), []
+    rng = np.random.default_rng(GRADERS() + 1)
+    verdicts = []
     for E, _ in some_motions(GRADERS() + 1):
         noisy = E + 0.003 * np.linalg.norm(E) * rng.normal(size=(3, 3))
         verdicts.append(

@@ -21,7 +21,8 @@ def with_noise(candidate: Function) -> Verdict:
 @check(1, public=False)
 def far_and_single(candidate: Function) -> Verdict:
     """A single point is found too, and so is one a kilometre away."""
-    pair, verdicts = a_pair(GRADERS() + 1, 3), []
+    pair = a_pair(GRADERS() + 1, 3)
+    verdicts = []
     for depth in (5.0, 1000.0):
         p = np.array([[0.1, -0.05, 1.0]]) * depth
         uv = [

@@ -24,7 +24,8 @@ def any_distance(candidate: Function) -> Verdict:
 def moved(candidate: Function) -> Verdict:
     """All turned and moved, the angles stay."""
     p_i, n_i, p_j, n_j = pairs(GRADERS() + 1, 40)
-    R, t = exp_so3(np.array([0.4, -1.2, 0.9])), np.array([3.0, -2.0, 1.0])
+    R = exp_so3(np.array([0.4, -1.2, 0.9]))
+    t = np.array([3.0, -2.0, 1.0])
     return judged(candidate, (p_i @ R.T + t, n_i @ R.T, p_j @ R.T + t, n_j @ R.T), "Moved")
 
 

@@ -94,7 +94,8 @@ def points_on_a_line(candidate: Function) -> Verdict:
         ("Points at one place", np.tile(few[0], (4, 1))),
     )
     for what, p_source in cases:
-        got, p_target = candidate(apply(T, p_source), p_source), apply(T, p_source)
+        got = candidate(apply(T, p_source), p_source)
+        p_target = apply(T, p_source)
         moved = apply(got, p_source)
         away = float(np.linalg.norm(moved - p_target, axis=1).max())
         hint = beside(moved[-1], p_target[-1], ALIGN_HINT, "The last point")

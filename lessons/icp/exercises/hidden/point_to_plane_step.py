@@ -16,7 +16,8 @@ def noisy_step(candidate: Function) -> Verdict:
         rng = np.random.default_rng(GRADERS() + k)
         p_true, n_target = planes(rng, 150)
         p_source = apply(a_motion(rng, 0.5, 0.02), p_true) + 0.005 * rng.normal(size=p_true.shape)
-        p_target, signs = slid(rng, p_true, n_target), rng.choice([-1.0, 1.0], (150, 1))
+        p_target = slid(rng, p_true, n_target)
+        signs = rng.choice([-1.0, 1.0], (150, 1))
         verdicts.append(
             _stepped(candidate(p_target, p_source, signs * n_target), p_target, p_source, n_target)
         )
@@ -48,7 +49,8 @@ def sliding(candidate: Function) -> Verdict:
     lifted = flat + np.array([0.0, 0.0, 0.04])
     hint = "What no plane holds stays. " + STEP_HINT
     verdicts = [motion_verdict(candidate(p_target, lifted, n_target), right, hint, p=lifted)]
-    normal, place = np.array([[0.6, 0.0, 0.8]]), np.zeros((1, 3))
+    normal = np.array([[0.6, 0.0, 0.8]])
+    place = np.zeros((1, 3))
     one = motion(np.eye(3), 0.07 * normal[0])
     verdicts.append(
         motion_verdict(
@@ -58,7 +60,8 @@ def sliding(candidate: Function) -> Verdict:
     walls = np.array(
         [[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]]
     )  # two and two, seen from the middle
-    p_walls, both = 1.5 * walls, motion(np.eye(3), np.array([0.03, -0.05, 0.0]))
+    p_walls = 1.5 * walls
+    both = motion(np.eye(3), np.array([0.03, -0.05, 0.0]))
     moved = p_walls + np.abs(walls) * [0.03, -0.05, 0.0]
     verdicts.append(
         motion_verdict(

@@ -64,7 +64,8 @@ def the_same_row_gives_the_same_point(candidate: Function) -> Verdict:
     """
     p, faces = blob(GRADERS() + 1)
     u = even(7, GRADERS() + 3)
-    q, again = candidate(p, faces, u), candidate(p, faces, u[::-1].copy())
+    q = candidate(p, faces, u)
+    again = candidate(p, faces, u[::-1].copy())
     off = float(np.linalg.norm(q - again[::-1], axis=1).max())
     hint = "Use the rows of u, in their order, and no numbers of your own."
     return worst(
@@ -76,7 +77,8 @@ def each_number_counts(candidate: Function) -> Verdict:
     """Judge whether the second number and the third each move the point in its face, and the first
     does not.
     """
-    triangle, one = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]]), np.array([[0, 1, 2]])
+    triangle = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]])
+    one = np.array([[0, 1, 2]])
     u = np.array([[0.3, 0.4, 0.2], [0.6, 0.4, 0.2], [0.3, 0.7, 0.2], [0.3, 0.4, 0.6]])
     q = candidate(triangle, one, u)
     moved = np.linalg.norm(q[1:] - q[0], axis=1)
@@ -99,7 +101,8 @@ def numbers_at_the_ends(candidate: Function) -> Verdict:
     """0 and what is next to 1 give points of the mesh as well, one row one point, and no rows no
     points.
     """
-    triangle, one = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]]), np.array([[0, 1, 2]])
+    triangle = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]])
+    one = np.array([[0, 1, 2]])
     if len(candidate(triangle, one, np.empty((0, 3)))):
         return fail("No rows came in, and points went out.")
     u = np.array(

@@ -35,7 +35,8 @@ def mirror_images(candidate: Function) -> Verdict:
 def far_away(candidate: Function) -> Verdict:
     """Clouds ten kilometres from the origin have the same scale."""
     p_target, p_source = pairs(GRADERS() + 20, 1.7, 0.03)
-    there, here = np.array([1e4, -3e3, 2e3]), np.array([-4e3, -9e3, 0.0])
+    there = np.array([1e4, -3e3, 2e3])
+    here = np.array([-4e3, -9e3, 0.0])
     return scale_verdict(candidate, p_target + there, p_source + here, f"Far away. {SCALE_HINT}")
 
 

@@ -32,7 +32,9 @@ def turned_lens(candidate: Function) -> Verdict:
 @check(1, public=False)
 def twice_the_lens(candidate: Function) -> Verdict:
     """Twice the coefficients move every point by twice as much."""
-    xy, lens = some_rays(GRADERS() + 3), (-0.12, 0.06, 0.006, -0.004)
-    once, twice = candidate(xy, *lens) - xy, candidate(xy, *(2 * k for k in lens)) - xy
+    xy = some_rays(GRADERS() + 3)
+    lens = (-0.12, 0.06, 0.006, -0.004)
+    once = candidate(xy, *lens) - xy
+    twice = candidate(xy, *(2 * k for k in lens)) - xy
     right = distortion.distort(xy, *lens) - xy
     return worst([bent(once, right), bent(twice, 2 * right)])

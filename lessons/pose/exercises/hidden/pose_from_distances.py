@@ -20,7 +20,8 @@ def other_cameras(candidate: Function) -> Verdict:
     for k, q in enumerate(ends):
         for R in (np.diag(np.roll([1.0, -1.0, -1.0], k)), exp_so3(np.array([0.3, -0.9, 0.4 * k]))):
             T = motion(R, np.array([0.3, -0.2, 0.5]))
-            p_world, distances = apply(inverse(T), q), np.linalg.norm(q, axis=1)
+            p_world = apply(inverse(T), q)
+            distances = np.linalg.norm(q, axis=1)
             found = candidate(p_world, q / distances[:, None], distances)
             verdicts.append(motion_verdict(found, T, f"A wide view. {HINT}", p=p_world))
     return worst(verdicts)

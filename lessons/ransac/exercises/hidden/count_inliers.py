@@ -15,7 +15,8 @@ def turned_over(candidate: Function) -> Verdict:
     """
     rng = np.random.default_rng(GRADERS() + 40)
     plane, p, signed = a_layer(rng)
-    right, other = int((np.abs(signed) <= 0.07).sum()), p[rng.permutation(len(p))]
+    right = int((np.abs(signed) <= 0.07).sum())
+    other = p[rng.permutation(len(p))]
     return worst(
         (
             count_verdict(candidate(plane, p, 0.07), right, len(p), "Within 0.07 m"),
@@ -30,10 +31,12 @@ def turned_over(candidate: Function) -> Verdict:
 @check(2, public=False)
 def cloud_and_plane_moved(candidate: Function) -> Verdict:
     """A cloud and its plane that are turned, moved and scaled together keep their count."""
-    rng, verdicts = np.random.default_rng(GRADERS() + 50), []
+    rng = np.random.default_rng(GRADERS() + 50)
+    verdicts = []
     for scale in (1.0, 12.0, 0.05):
         plane, p, signed = a_layer(rng)
-        R, t = exp_so3(rng.normal(size=3)), rng.uniform(-4.0, 4.0, 3)
+        R = exp_so3(rng.normal(size=3))
+        t = rng.uniform(-4.0, 4.0, 3)
         moved = np.append(R @ plane[:3], scale * (plane[3] - R @ plane[:3] @ t))
         got = candidate(moved, scale * (p @ R.T + t), scale * 0.05)
         right = int((np.abs(signed) <= 0.05).sum())

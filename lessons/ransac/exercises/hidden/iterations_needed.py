@@ -17,11 +17,9 @@ def a_case(rng: np.random.Generator) -> tuple[float, int, float]:
     answer.
     """
     while True:
-        w, s, confidence = (
-            round(rng.uniform(0.2, 0.9), 3),
-            int(rng.integers(2, 8)),
-            round(rng.uniform(0.6, 0.999), 3),
-        )
+        w = round(rng.uniform(0.2, 0.9), 3)
+        s = int(rng.integers(2, 8))
+        confidence = round(rng.uniform(0.6, 0.999), 3)
         exact = np.log1p(-confidence) / np.log1p(-(w**s))
         if exact > 2.0 and 0.05 < exact % 1.0 < 0.95:
             return w, s, confidence

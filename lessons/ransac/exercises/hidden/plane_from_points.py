@@ -16,10 +16,14 @@ from workbench.geometry.motions import exp_so3
 @check(2, public=False)
 def moved_and_turned(candidate: Function) -> Verdict:
     """Points that are turned and moved take their plane along, whichever of them comes first."""
-    rng, verdicts = np.random.default_rng(GRADERS()), []
+    rng = np.random.default_rng(GRADERS())
+    verdicts = []
     for k in range(3):
-        p, R, t = a_triangle(rng), exp_so3(rng.normal(size=3)), rng.uniform(-3.0, 3.0, 3)
-        plane, moved = candidate(p), p @ R.T + t
+        p = a_triangle(rng)
+        R = exp_so3(rng.normal(size=3))
+        t = rng.uniform(-3.0, 3.0, 3)
+        plane = candidate(p)
+        moved = p @ R.T + t
         taken = np.append(R @ plane[:3], plane[3] - R @ plane[:3] @ t)
         verdicts += [
             found(candidate, p, "Before the move"),
@@ -81,7 +85,8 @@ def nearly_on_a_line(candidate: Function) -> Verdict:
     """Points on one line but for rounding give four nan, near and a kilometre apart; thirty times
     the bound is a plane.
     """
-    rng, verdicts = np.random.default_rng(GRADERS() + 30), []
+    rng = np.random.default_rng(GRADERS() + 30)
+    verdicts = []
     for size in (1.0, 1e3, 1e-3):
         direction, start = rng.normal(size=(2, 3))
         p = size * (start + np.outer([0.1, 0.7, -0.9], direction))

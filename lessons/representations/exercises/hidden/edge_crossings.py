@@ -27,13 +27,12 @@ def zero_at_an_end(candidate: Function) -> Verdict:
     """
     rng = np.random.default_rng(GRADERS() + 1)
     p_a, p_b, f_a, f_b = edges(rng, 8)
-    f_a, f_b = np.where(np.arange(8) < 4, 0.0, f_a), np.where(np.arange(8) < 4, f_b, 0.0)
+    f_a = np.where(np.arange(8) < 4, 0.0, f_a)
+    f_b = np.where(np.arange(8) < 4, f_b, 0.0)
     zero = verdict(candidate, (p_a, p_b, f_a, f_b), "With a zero at an end")
     p_a, p_b, f_a, f_b = edges(rng, 8)
-    f_a, f_b = (
-        np.where(np.arange(8) < 4, 2e-5 * f_a, f_a),
-        np.where(np.arange(8) < 4, f_b, 2e-5 * f_b),
-    )
+    f_a = np.where(np.arange(8) < 4, 2e-5 * f_a, f_a)
+    f_b = np.where(np.arange(8) < 4, f_b, 2e-5 * f_b)
     return worst(
         (zero, verdict(candidate, (50 * p_a, 50 * p_b, f_a, f_b), "With nearly a zero at an end"))
     )

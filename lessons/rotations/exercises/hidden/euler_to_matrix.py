@@ -39,7 +39,9 @@ def gimbal_lock(candidate: Function) -> Verdict:
     """At a pitch of 90 degrees only the sum of the first and the third angle counts; more than half
     a turn is a turn too.
     """
-    a, c, more = 0.4, -0.9, 0.7
+    a = 0.4
+    c = -0.9
+    more = 0.7
     R, other = (candidate(np.array([a + d, np.pi / 2, c - d]), "XYZ") for d in (0.0, more))
     right = rotations.euler_to_matrix(np.array([a, np.pi / 2, c]), "XYZ")
     others = (
