@@ -299,7 +299,7 @@ def check(
             sys.stdout.write(f"  Watch where it goes wrong: {command_line('replay', recorded)}\n")
     for item in failed:
         _complain(item["error"])
-    return 2 if failed else 0 if all(report.is_full for report in reports) else 1
+    return 2 if failed else int(not all(report.is_full for report in reports))
 
 
 @command

@@ -61,13 +61,12 @@ def replay(
     if isinstance(lesson, str):
         led = moved(lesson, preset, params)
         lesson, preset, params = led.lesson, led.preset, led.values
-    chosen = (
-        lesson
-        if isinstance(lesson, Lesson)
-        else load(lesson)
-        if isinstance(lesson, Path)
-        else find(lesson)
-    )
+    if isinstance(lesson, Lesson):
+        chosen = lesson
+    elif isinstance(lesson, Path):
+        chosen = load(lesson)
+    else:
+        chosen = find(lesson)
     if steps is not None and steps < 1:
         raise InputError(f"steps = {steps}: how many steps are kept, 1 or more")
     if height < LEAST_HEIGHT:

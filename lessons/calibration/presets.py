@@ -138,9 +138,13 @@ def distance_ratio(states: Sequence[State]) -> float:
 
 
 def _changed(states: Sequence[State]) -> float:
-    f = abs(f_error(states)) > 5.0
-    t = abs(distance_ratio(states) - 1) > 0.01
-    return 3.0 if f and t else 0.0 if f else 1.0 if t else 2.0
+    f_changed = abs(f_error(states)) > 5.0
+    t_changed = abs(distance_ratio(states) - 1) > 0.01
+    if f_changed and t_changed:
+        return 3.0
+    if f_changed:
+        return 0.0
+    return 1.0 if t_changed else 2.0
 
 
 def _closed_forms(states: Sequence[State]) -> str:

@@ -185,7 +185,12 @@ def _scaled(ray: Scaled) -> dict[str, Primitive]:
 
 def _scattered(dots: Scattered) -> dict[str, Primitive]:
     near = np.abs(dots.p[:, 2]) > np.cos(CAP)
-    radius = 0.02 if len(dots.p) < 1000 else 0.012 if len(dots.p) < 6000 else 0.008
+    if len(dots.p) < 1000:
+        radius = 0.02
+    elif len(dots.p) < 6000:
+        radius = 0.012
+    else:
+        radius = 0.008
     edges = np.arange(0.0, 181.0, 10.0)
     expected = len(dots.p) * -np.diff(np.cos(np.radians(edges))) / 2
     rims = np.concatenate([parallel(polar) for polar in (CAP, np.pi - CAP)])

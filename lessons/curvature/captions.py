@@ -142,14 +142,14 @@ def _principal(state: State) -> Caption:
     if not np.isfinite([k1, k2]).all():
         return say(NOWHERE.format("K or H"))
     text = f"k₁ = {brief(k1)} and k₂ = {brief(k2)} m⁻¹"
-    kind = (
-        "to both sides, as on a saddle"
-        if k1 * k2 < -1e-6
-        else "to one side"
-        if k1 * k2 > 1e-6
-        else "one way only"
-    )
-    kind = kind if max(abs(k1), abs(k2)) > 1e-6 else "not at all"
+    if max(abs(k1), abs(k2)) <= 1e-6:
+        kind = "not at all"
+    elif k1 * k2 < -1e-6:
+        kind = "to both sides, as on a saddle"
+    elif k1 * k2 > 1e-6:
+        kind = "to one side"
+    else:
+        kind = "one way only"
     return say(f"{text}: the two circles bend {kind}.")
 
 
@@ -237,7 +237,10 @@ _CAPTIONS = {
 
 
 def _truth(true: float, unit: str) -> str:
-    return f"; the truth is {brief(true)}{' ' if unit else ''}{unit}." if np.isfinite(true) else "."
+    if not np.isfinite(true):
+        return "."
+    space = " " if unit else ""
+    return f"; the truth is {brief(true)}{space}{unit}."
 
 
 def _error(state: State, name: str) -> str:

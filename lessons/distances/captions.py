@@ -109,7 +109,9 @@ def tone_of(distances: Found) -> Literal["good", "wrong", "info"]:
     known = np.abs(distances.error[np.isfinite(distances.error)])
     if not len(known) or (len(distances.asymmetry) and known.mean() <= GOOD):
         return "info"
-    return "good" if known.mean() <= GOOD else "wrong" if known.mean() > BAD else "info"
+    if known.mean() <= GOOD:
+        return "good"
+    return "wrong" if known.mean() > BAD else "info"
 
 
 def _of_found(state: State, distances: Found) -> Caption:

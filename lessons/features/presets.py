@@ -177,6 +177,13 @@ def end(states: Sequence[State]) -> Scanned:
     return as_a(Scanned, states[-1].now)
 
 
+def _which_inwards(states: Sequence[State]) -> float:
+    count = kept_count(states)
+    if count > 120:
+        return 0.0
+    return 1.0 if count > 50 else 2.0
+
+
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "radius",
@@ -223,9 +230,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "inwards",
         "The filter keeps some 170 of 2,000 matches. How many does it keep when all normals of the"
         " source face inwards?",
-        answer=lambda states: (
-            0.0 if kept_count(states) > 120 else 1.0 if kept_count(states) > 50 else 2.0
-        ),
+        answer=_which_inwards,
         why=lambda states: (
             f"{counted(int(kept_count(states)), 'match', 'matches')}. With both normals of a pair"
             " flipped, θ and φ change their signs, so the histograms of a place have little in"

@@ -248,11 +248,11 @@ def iterations_to(states: Sequence[State], metres: float) -> int:
 
 
 def against_squares(states: Sequence[State]) -> float:
-    """Return whether a robust plane ends on the truth, nearer to it than least squares, or
-    farther.
-    """
+    """Return whether a robust plane ends on the truth, nearer than least squares, or farther."""
     error, squares_error = states[-1].plane_errors
-    return 0.0 if states[-1].plane_is_right else 1.0 if error < 0.95 * squares_error else 2.0
+    if states[-1].plane_is_right:
+        return 0.0
+    return 1.0 if error < 0.95 * squares_error else 2.0
 
 
 QUESTIONS: tuple[Question[Params, State], ...] = (

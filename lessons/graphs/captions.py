@@ -270,13 +270,9 @@ def _heat(state: State, heat: Heat) -> str:
 
 
 def _size(value: float) -> str:
-    return (
-        "less than 0.00001"
-        if value < 1e-5
-        else fixed_or_power(value, 0)
-        if value >= 1000
-        else brief(value, 2)
-    )
+    if value < 1e-5:
+        return "less than 0.00001"
+    return fixed_or_power(value, 0) if value >= 1000 else brief(value, 2)
 
 
 def _smoothed(state: State, smoothed: Smoothed) -> str:

@@ -110,9 +110,13 @@ def tone(state: State) -> Tone:
         assert isinstance(state.first, Smoothed)
         start = from_clean(state, state.first.p)
         end = from_clean(state, result.p)
-        return "wrong" if end > start else "good" if end < 0.9 * start else "info"
+        if end > start:
+            return "wrong"
+        return "good" if end < 0.9 * start else "info"
     correct = right(state)
     n = len(state.subject.p)
     if correct is None or not (state.last or (isinstance(result, Cut) and result.phase == "sign")):
         return "info"
-    return "good" if correct >= WELL * n else "wrong" if correct < BADLY * n else "info"
+    if correct >= WELL * n:
+        return "good"
+    return "wrong" if correct < BADLY * n else "info"

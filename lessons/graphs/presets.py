@@ -215,6 +215,13 @@ def _hottest(states: Sequence[State]) -> float:
     return float(np.abs(heat.u).max())
 
 
+def _which_longer(states: Sequence[State]) -> float:
+    hottest = _hottest(states)
+    if hottest > 10:
+        return 2
+    return 1 if hottest > 0.1 else 0
+
+
 def _right(states: Sequence[State], step: int = -1) -> int:
     return sure(right(states[step]))
 
@@ -291,7 +298,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "longer",
         "Heat on the rabbit's mesh is stepped with dt = 2.5 / λmax instead of 1 / λmax. What"
         " happens in 100 steps?",
-        lambda states: 2 if _hottest(states) > 10 else 1 if _hottest(states) > 0.1 else 0,
+        _which_longer,
         lambda states: (
             f"The largest heat is {fixed_or_power(_hottest(states), 0)} in the end. A step"
             " multiplies each eigenvector by 1 − dt λ, and for the largest λ that is −1.5."

@@ -90,6 +90,12 @@ def _why_rest(states: States) -> str:
     )
 
 
+def _which_far(states: States) -> float:
+    if came_home(states):
+        return 0.0
+    return 2.0 if rmse_falls(states) else 1.0
+
+
 def _why_far(states: States) -> str:
     return (
         f"It ended {off(states)} from the truth, at an RMSE of {length(end(states).rmse)}. No match"
@@ -117,7 +123,9 @@ def _why_share(states: States) -> str:
 
 def _which_vase(states: States) -> float:
     small = end(states).rmse < 2.0 * as_a(Scans, states.subject).spacing
-    return 2.0 if not small else 0.0 if came_home(states) else 1.0
+    if not small:
+        return 2.0
+    return 0.0 if came_home(states) else 1.0
 
 
 def _why_vase(states: States) -> str:
@@ -216,7 +224,7 @@ QUESTIONS: tuple[Question, ...] = (
     Question(
         name="predict-far",
         text="In space, the rabbit starts 120° away. What will ICP do?",
-        answer=lambda states: 0.0 if came_home(states) else 2.0 if rmse_falls(states) else 1.0,
+        answer=_which_far,
         why=_why_far,
         params=FAR,
         choices=(

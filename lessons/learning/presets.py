@@ -302,9 +302,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-radius",
         "48 points learn from circles with radii from 0.5 m to 1.5 m, by the earth mover's loss of"
         " squares. What do they become?",
-        answer=lambda states: (
-            0.0 if _radius(states)[1] < 0.02 else 1.0 if _radius(states)[1] < 0.2 else 2.0
-        ),
+        answer=lambda states: float(np.digitize(_radius(states)[1], [0.02, 0.2])),
         why=lambda states: (
             f"After {_updates(states)} a circle of radius {fixed(_radius(states)[0], 2)} m, spread"
             f" {fixed(_radius(states)[1], 3)} m. The mean of the partners makes a sum of"
@@ -374,9 +372,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-views",
         "A field learns from 2 photographs, another from 24, by 225 updates each. The first matches"
         " the 2 it was shown with 37 dB. How does the second match its 24?",
-        answer=lambda states: (
-            0.0 if _signals(states).trained < 32 else 1.0 if _signals(states).trained < 40 else 2.0
-        ),
+        answer=lambda states: float(np.digitize(_signals(states).trained, [32, 40])),
         why=lambda states: (
             f"With {fixed(_signals(states).trained, 1)} dB: more to explain, so each is explained"
             f" less well. But views it was never shown have {fixed(_signals(states).unseen, 1)} dB,"

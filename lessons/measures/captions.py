@@ -47,11 +47,10 @@ def off(error: float) -> str:
     """Write a relative error with its sign."""
     if abs(error) < EXACT:
         return "exact"
-    return (
-        f"{'+' if error > 0 else ''}{percent(error)}"
-        if abs(error) >= 1e-4
-        else "off by less than 0.01 %"
-    )
+    if abs(error) >= 1e-4:
+        sign = "+" if error > 0 else ""
+        return f"{sign}{percent(error)}"
+    return "off by less than 0.01 %"
 
 
 def _interval(value: float, error: float) -> str:
@@ -132,7 +131,12 @@ def right(state: State) -> bool:
     result = state.now
     if not isinstance(result, Sums) or not encloses(state.subject.faces):
         return False
-    most = 0.75 if state.params.subdivisions < 1 else 0.4 if state.params.subdivisions < 2 else 0.15
+    if state.params.subdivisions < 1:
+        most = 0.75
+    elif state.params.subdivisions < 2:
+        most = 0.4
+    else:
+        most = 0.15
     return -(most if state.subject.smooth else EXACT) < state.volume_error < 1e-6
 
 

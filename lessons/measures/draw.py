@@ -127,7 +127,12 @@ def _throws(state: State, throws: Throws) -> dict[str, Primitive]:
 
 
 def _thrown(q: np.ndarray, inside: np.ndarray) -> Points:
-    radius = 0.03 if len(q) < 300 else 0.02 if len(q) < 1200 else 0.014
+    if len(q) < 300:
+        radius = 0.03
+    elif len(q) < 1200:
+        radius = 0.02
+    else:
+        radius = 0.014
     return Points(
         q,
         Classes(inside.astype(np.uint8), ("correspondence", "source"), ("miss", "hit")),
@@ -159,6 +164,12 @@ def _triangle(sampled: Sampled) -> dict[str, Primitive]:
         ("source", "other", "highlight", "neutral"),
         ("at a", "at b", "at c", "in the middle"),
     )
+    if len(sampled.q) < 300:
+        radius = 0.035
+    elif len(sampled.q) < 1000:
+        radius = 0.02
+    else:
+        radius = 0.011
     back = np.array([0.0, 0.01, 0.0])
     middle = TRIANGLE.mean(axis=0)
     names = {
@@ -175,7 +186,7 @@ def _triangle(sampled: Sampled) -> dict[str, Primitive]:
         "points": Points(
             sampled.q,
             color,
-            0.035 if len(sampled.q) < 300 else 0.02 if len(sampled.q) < 1000 else 0.011,
+            radius,
             name="points",
         ),
     }

@@ -192,7 +192,9 @@ def _walls(states: Sequence[State]) -> list[float]:
 
 def _walls_answer(states: Sequence[State]) -> float:
     ends = _walls(states)[-3:]
-    return 2.0 if ends[-1] > 1.1 * ends[0] else 0.0 if ends[-1] < 1.05 else 1.0
+    if ends[-1] > 1.1 * ends[0]:
+        return 2.0
+    return 0.0 if ends[-1] < 1.05 else 1.0
 
 
 def _walls_why(states: Sequence[State]) -> str:

@@ -172,8 +172,13 @@ def _distort(look: PinholeLook) -> Told:
             "most": most
         }
     inward = np.linalg.norm(state.xy_bent[k]) < np.linalg.norm(state.xy[k])
-    where = "" if moved[k] < 0.05 else " inwards" if inward else " outwards"
-    words = f"The lens moves {shot.name} by {{moved}}{where}."
+    if moved[k] < 0.05:
+        direction = ""
+    elif inward:
+        direction = " inwards"
+    else:
+        direction = " outwards"
+    words = f"The lens moves {shot.name} by {{moved}}{direction}."
     return words, {"moved": pixels(float(moved[k]))}
 
 

@@ -33,7 +33,9 @@ def towers(states: Run) -> tuple[float, float]:
 
 def _which_dolly(states: Run) -> float:
     before, after = towers(states)
-    return 0.0 if after > 1.05 * before else 2.0 if after < 0.95 * before else 1.0
+    if after > 1.05 * before:
+        return 0.0
+    return 2.0 if after < 0.95 * before else 1.0
 
 
 def _why_dolly(states: Run) -> str:
@@ -95,7 +97,9 @@ def moved_aside(states: Run) -> tuple[float, float]:
 
 def _which_rails(states: Run) -> float:
     shift = moved_aside(states)[0]
-    return 1.0 if abs(shift) < 0.5 else 0.0 if shift < 0 else 2.0
+    if abs(shift) < 0.5:
+        return 1.0
+    return 0.0 if shift < 0 else 2.0
 
 
 def _why_rails(states: Run) -> str:

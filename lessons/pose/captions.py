@@ -259,7 +259,9 @@ def _repeated(state: State, trials: Repeated) -> Caption:
             " over"
         )
         text += f" {angle(FAR_DEGREES)} off in {far[0]}, SQPnP in {far[1]}."
-    return Caption(text, "good" if right == n else "wrong" if right < 0.9 * n else "info")
+    if right == n:
+        return Caption(text, "good")
+    return Caption(text, "wrong" if right < 0.9 * n else "info")
 
 
 def _off(state: State) -> str:

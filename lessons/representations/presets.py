@@ -234,9 +234,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-area",
         "A torus as bits, its surface by marching cubes. What becomes of the area with ever smaller"
         " cells?",
-        answer=lambda states: (
-            0.0 if _areas(states)[-1] < 1.02 else 1.0 if _areas(states)[-1] < 1.2 else 2.0
-        ),
+        answer=lambda states: float(np.digitize(_areas(states)[-1], [1.02, 1.2])),
         why=lambda states: (
             f"With 16 cells {percent(_areas(states)[2] - 1)} too much, with 64 cells"
             f" {percent(_areas(states)[-1] - 1)}. Bits know 26 directions at most: the surface goes"

@@ -211,7 +211,9 @@ def grade_folder(
             return 130
     result.write(summary(graded, worth) + f"\nResults: {out / 'class.csv'}, {out / 'matrix.csv'}\n")
     some = [student for student in graded if student["reports"]]
-    return 2 if not some else 0 if all(is_full(student, worth) for student in graded) else 1
+    if not some:
+        return 2
+    return 0 if all(is_full(student, worth) for student in graded) else 1
 
 
 @contextlib.contextmanager

@@ -125,17 +125,14 @@ def changed(args: tuple[Any, ...]) -> Verdict:
     ]
     values = np.concatenate(arrays) if arrays else np.zeros(0)
     with np.errstate(invalid="ignore"):
-        detail = (
-            " with nan in it"
-            if np.isnan(values).any()
-            else (
-                " with inf in it"
-                if np.isinf(values).any()
-                else " without entries"
-                if any(array.size == 0 for array in arrays)
-                else ""
-            )
-        )
+        if np.isnan(values).any():
+            detail = " with nan in it"
+        elif np.isinf(values).any():
+            detail = " with inf in it"
+        elif any(array.size == 0 for array in arrays):
+            detail = " without entries"
+        else:
+            detail = ""
     return fail(
         f"Your function changed an array{detail} that it was given. Work on a copy: a /= b writes"
         " into a, a = a / b not."

@@ -36,7 +36,9 @@ class Verdict:
     @property
     def word(self) -> str:
         """`pass`, `partial` or `fail`."""
-        return "pass" if self.share == 1.0 else "partial" if self.share > 0.0 else "fail"
+        if self.share == 1.0:
+            return "pass"
+        return "partial" if self.share > 0.0 else "fail"
 
 
 def full(message: str) -> Verdict:

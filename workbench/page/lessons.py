@@ -4,7 +4,7 @@ answers.
 
 from typing import Any
 
-from workbench.knobs import Gizmo, ParamField, Pick, changed, fields_of
+from workbench.knobs import Gizmo, Knob, ParamField, Pick, changed, fields_of
 from workbench.lesson import Lesson, Preset, Question
 from workbench.moved import asked_before
 from workbench.words.typeset import inline_html
@@ -41,11 +41,7 @@ def knob_data(field: ParamField) -> dict[str, Any]:
         "unit": knob.unit,
         "kind": field.kind,
         **({"size": knob.by.size} if isinstance(knob.by, Gizmo) else {}),
-        "by": "gizmo"
-        if isinstance(knob.by, Gizmo)
-        else "pick"
-        if isinstance(knob.by, Pick)
-        else "slider",
+        "by": _set_by(knob),
         "needs": {name: list(wanted) for name, wanted in knob.needs.items()},
         "default": list(field.default) if isinstance(field.default, tuple) else field.default,
     }
@@ -59,6 +55,13 @@ def knob_data(field: ParamField) -> dict[str, Any]:
         "step": field.step,
         "parts": part_names(field),
     }
+
+
+def _set_by(knob: Knob) -> str:
+    """Return the word for what sets a knob in the page."""
+    if isinstance(knob.by, Gizmo):
+        return "gizmo"
+    return "pick" if isinstance(knob.by, Pick) else "slider"
 
 
 def values_of(params: Any) -> dict[str, Any]:

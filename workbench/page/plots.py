@@ -38,11 +38,9 @@ def plot_of(parts: Sequence[Curve], keep: Callable[[Curve], int]) -> dict[str, A
     by_part: dict[str, list[Curve]] = {part: [] for part in ("whole", "second", "mark", "band")}
     for curve in parts:
         by_part[curve.part].append(curve)
-    label = (
-        f"{chart.title} ({'°' if chart.unit == 'deg' else chart.unit})"
-        if chart.unit
-        else chart.title
-    )
+    label = chart.title
+    if chart.unit:
+        label = f"{label} ({'°' if chart.unit == 'deg' else chart.unit})"
     return {
         "kind": "plot",
         "name": slug(chart.title),

@@ -221,7 +221,9 @@ def recording_of(lesson: Lesson, run: Run) -> str | None:
     """Return the name of a run's recording, which tells what it is where it is downloaded to; None
     where there is none.
     """
-    return file_name(lesson, None if run.name == "default" else run.name) if run.recorded else None
+    if not run.recorded:
+        return None
+    return file_name(lesson, None if run.name == "default" else run.name)
 
 
 def render_all(

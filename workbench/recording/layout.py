@@ -200,7 +200,9 @@ def _column(rows: Sequence[tuple[Any, float]], late: Sequence[tuple[Any, float]]
     ]
     if late:
         views.append(rrb.Vertical(*(view for view, _ in late), name="Towards the end"))
-    return None if not views else views[0] if len(views) == 1 else rrb.Tabs(*views, active_tab=0)
+    if not views:
+        return None
+    return views[0] if len(views) == 1 else rrb.Tabs(*views, active_tab=0)
 
 
 def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Values]) -> Any:

@@ -69,13 +69,12 @@ def record(
     if isinstance(lesson, str) and params is None:
         led = moved(lesson, preset, values)
         lesson, preset, values = led.lesson, led.preset, led.values
-    loaded = (
-        find(lesson)
-        if isinstance(lesson, str)
-        else load(lesson)
-        if isinstance(lesson, Path)
-        else lesson
-    )
+    if isinstance(lesson, str):
+        loaded = find(lesson)
+    elif isinstance(lesson, Path):
+        loaded = load(lesson)
+    else:
+        loaded = lesson
     if params is not None and (preset is not None or values):
         other = f"preset {preset!r}" if preset is not None else f"{next(iter(values))}=…"
         raise InputError(f"params and {other}: give whole params, or a preset and single values")

@@ -220,7 +220,9 @@ def _option(
             raise InputError(f"{called} is missing: {option.help}")
         if given is None or given == []:
             return default
-        return tuple(given) if many else Path(given) if Path in kinds else given
+        if many:
+            return tuple(given)
+        return Path(given) if Path in kinds else given
 
     return read
 

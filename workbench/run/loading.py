@@ -38,7 +38,12 @@ def load(path: Path) -> Lesson:
         InputError: If there is no such file or folder, or it defines no lesson.
         AuthorError: If it fails; names its file and line.
     """
-    folder = path if path.is_dir() else path.parent if path.name == "lesson.py" else None
+    if path.is_dir():
+        folder = path
+    elif path.name == "lesson.py":
+        folder = path.parent
+    else:
+        folder = None
     file = path if folder is None else folder / "lesson.py"
     if not file.is_file():
         missing = (

@@ -38,11 +38,9 @@ def serve(
     Raises:
         InputError: If the port is taken or may not be used, or several processes are wanted.
     """
-    start = (
-        None
-        if lesson is None
-        else links.Place(lesson, params if params is not None else lesson.params(), step)
-    )
+    start = None
+    if lesson is not None:
+        start = links.Place(lesson, params if params is not None else lesson.params(), step)
     if workers != 1:
         raise InputError(
             f"--workers {workers}: one process serves a hundred students; more servers:"

@@ -128,8 +128,11 @@ def _words(places: np.ndarray) -> tuple[str, ...]:
 
 def _word(value: float, power: int, digits: int) -> str:
     text = f"{value / 10.0**power:,.{digits}f}"
-    zero = not text.strip("-0.")
-    return ("0" if zero else text + (f"e{power}" if power else "")).replace("-", "−")
+    if not text.strip("-0."):
+        return "0"
+    if power:
+        text += f"e{power}"
+    return text.replace("-", "−")
 
 
 def number(value: float) -> str:

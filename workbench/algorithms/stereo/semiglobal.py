@@ -68,8 +68,11 @@ class Jumps:
     def type_of_sum(self, paths: int) -> np.dtype:
         """Return the narrowest number type that holds the sum of so many path costs, and P1."""
         most = paths * (self.top + self.P2) + self.P1
-        whole = np.uint8 if most < 2**8 else np.uint16 if most < 2**16 else np.float32
-        return np.dtype(whole if self.whole else np.float32)
+        if self.whole and most < 2**8:
+            return np.dtype(np.uint8)
+        if self.whole and most < 2**16:
+            return np.dtype(np.uint16)
+        return np.dtype(np.float32)
 
 
 def prepare(cost: Costs, P1: float, P2: float) -> tuple[Costs, Jumps]:

@@ -168,4 +168,6 @@ def check_cost(cost: np.ndarray) -> None:
 
 def why_stop(converged: bool, at_limit: bool) -> Stop | None:
     """Return the reason to stop, or None to go on."""
-    return Stop.CONVERGED if converged else Stop.MAX_SWEEPS if at_limit else None
+    if converged:
+        return Stop.CONVERGED
+    return Stop.MAX_SWEEPS if at_limit else None

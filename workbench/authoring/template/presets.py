@@ -51,7 +51,11 @@ def why_best(states: States[Input, Fixes, object]) -> str:
 def what_became(states: States) -> float:
     """Return the index of the choice that describes where the strays left the estimate."""
     error = error_of(states[-1])
-    return 0 if error < 0.03 else 1 if error < 0.4 else 2
+    if error < 0.03:
+        return 0
+    if error < 0.4:
+        return 1
+    return 2
 
 
 def why_it_moved(states: States) -> str:

@@ -228,13 +228,20 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         if rows and columns is None and rows[0].strip().isdigit():
             rows = rows[1:]
         if rows and columns is None:
-            separator = ";" if ";" in rows[0] else "," if "," in rows[0] else None
+            separator = _separator(rows[0])
             columns, titles = _columns(rows[0], separator, name)
             rows = rows[titles:]
         if rows and columns is not None:
             plain = [row.replace(",", ".") for row in rows] if separator == ";" else rows
             points.append(_numbers(plain, separator, columns, name))
     return np.concatenate(points)
+
+
+def _separator(row: str) -> str | None:
+    """Return what stands between the columns of a row; None where it is tabs or spaces."""
+    if ";" in row:
+        return ";"
+    return "," if "," in row else None
 
 
 def _columns(row: str, separator: str | None, name: str) -> tuple[list[int], int]:

@@ -27,13 +27,12 @@ class CallBudget:
     def over(self) -> str:
         """Why no call is made any more; nothing where one is."""
         if self._late + self._lost >= REFUSED_AFTER:
-            trouble = (
-                "took too long"
-                if not self._lost
-                else "ended its process"
-                if not self._late
-                else "took too long or crashed"
-            )
+            if not self._lost:
+                trouble = "took too long"
+            elif not self._late:
+                trouble = "ended its process"
+            else:
+                trouble = "took too long or crashed"
             return f"{self._late + self._lost} calls already {trouble}"
         if self._spent > CALLS * self._seconds:
             return f"its calls together took more than {CALLS * self._seconds:g} s"

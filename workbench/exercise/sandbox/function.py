@@ -262,8 +262,10 @@ class SandboxedFunction(StudentFunction):
                 f"Python did not start: {self.printed().strip()[-200:] or f'exit code {code}'}",
                 "died",
             )
-        # bubblewrap says 128 and the signal
-        number = None if code is None else -code if code < 0 else code - 128
+        number = None
+        if code is not None:
+            # bubblewrap says 128 and the signal
+            number = -code if code < 0 else code - 128
         how = f"ended (exit code {code}): does it call exit, or crash a library?"
         if number in (signal.SIGKILL, signal.SIGXCPU):
             how = "was killed: too much memory, or processor time?"
