@@ -70,7 +70,7 @@ def counted(folder: str) -> dict[str, int]:
 
 
 CEILINGS: dict[str, dict[str, int]] = {
-    "workbench": {"unlike": 60, "nested": 0, "positional": 121, "nameless": 15, "long files": 4},
+    "workbench": {"unlike": 60, "nested": 0, "positional": 121, "nameless": 18, "long files": 4},
     "lessons": {"unlike": 107, "nested": 1, "positional": 223, "nameless": 150, "long files": 5},
     "tests": {"unlike": 143, "nested": 20, "positional": 253, "nameless": 1441, "long files": 22},
 }

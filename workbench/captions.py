@@ -62,9 +62,9 @@ def fixed(value: float, places: int) -> Quantity:
     return Quantity(float(value), numerals.fixed(value, places))
 
 
-def counted(count: int, noun: str, more: str = "") -> Quantity:
+def counted(count: int, one: str, more: str = "") -> Quantity:
     """Return how many there are of what: "1 sample", "2 samples"."""
-    return Quantity(count, numerals.counted(count, noun, more))
+    return Quantity(count, numerals.counted(count, one, more))
 
 
 def say(

@@ -154,8 +154,8 @@ def plus_minus(value: float, deviation: float, places: int = 1) -> tuple[str, st
     return fixed(round(value / 10**place) * 10**place, 0), brief(deviation, 2)
 
 
-def counted(count: int, noun: str, more: str = "") -> str:
+def counted(count: int, one: str, more: str = "") -> str:
     """Write how many there are of what: "1 sample", "2 samples"; a plural that is no mere s is
     given.
     """
-    return f"{count:,} {noun if count == 1 else more or f'{noun}s'}"
+    return f"{count:,} {one if count == 1 else more or f'{one}s'}"

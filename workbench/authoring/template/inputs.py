@@ -1,4 +1,4 @@
-"""What a person sets, and what a run is about."""
+"""What a person sets, what a run is about, and what a step is."""
 
 from dataclasses import dataclass
 
@@ -41,6 +41,15 @@ def setup(params: Input) -> Fixes:
     strays = np.flatnonzero(is_good)[::-1][: params.strays]
     p[strays] += P_OTHER - P_TRUE
     return Fixes(p, is_good)
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """One step: the estimate p (3,) of the first `count` fixes, metres, and all their weights."""
+
+    count: int
+    p: np.ndarray
+    w: np.ndarray
 
 
 def expected_error(params: Input, weight: np.ndarray) -> np.ndarray:

@@ -3,13 +3,12 @@
 What it teaches: a weight of one over the variance gives the best mean there is; a bad sensor that
 counts too much is worse than none; no weight protects from a measurement of something else.
 
-`inputs.py` has what a person sets and what a run is about, `draw.py` the picture of a step and its
-caption, `presets.py` the presets and questions, `page.md` the story, `exercises/` what students
-write.
+`inputs.py` has what a person sets, what a run is about and what a step is, `draw.py` the picture of
+a step and its caption, `presets.py` the presets and questions, `page.md` the story, `exercises/`
+what students write.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -19,20 +18,11 @@ from workbench.tracing import traced
 
 from .draw import draw
 from .exercises.weighted_centroid import weighted_centroid
-from .inputs import P_TRUE, Fixes, Input, setup
+from .inputs import P_TRUE, Estimate, Fixes, Input, setup
 from .presets import PRESETS, QUESTIONS
 
 Centroid = Callable[[np.ndarray, np.ndarray], np.ndarray]
 TARGET = tuple(P_TRUE.tolist())
-
-
-@dataclass(frozen=True, eq=False)
-class Estimate:
-    """One step: the estimate p (3,) of the first `count` fixes, metres, and all their weights."""
-
-    count: int
-    p: np.ndarray
-    w: np.ndarray
 
 
 @traced

@@ -309,7 +309,7 @@ def _points(path: Path) -> np.ndarray:
 
 
 def finite(
-    p: Float[np.ndarray, "n d"], name: str, noun: str = "point", many: str = "points"
+    p: Float[np.ndarray, "n d"], name: str, one: str = "point", many: str = "points"
 ) -> Float[np.ndarray, "m d"]:
     """Return the rows without NaN and infinity; the first step tells how many are left out."""
     good = np.isfinite(p).all(axis=1)
@@ -318,7 +318,7 @@ def finite(
     if not good.all():
         bad = int((~good).sum())
         note(
-            f"{name}: {bad:,} of {len(p):,} {noun if len(p) == 1 else many} left out: NaN or"
+            f"{name}: {bad:,} of {len(p):,} {one if len(p) == 1 else many} left out: NaN or"
             " infinite."
         )
     return p[good]
@@ -360,12 +360,12 @@ def _content(path: Path) -> tuple[bytes, str]:
 
 
 def text_rows(
-    path: Path, noun: str, kinds: tuple[str, ...] | None, comments: str = "#"
+    path: Path, what: str, kinds: tuple[str, ...] | None, comments: str = "#"
 ) -> list[tuple[int, str]]:
     """Return the lines of a text file with their numbers from 1, without empty ones and comments.
 
     Args:
-        noun: What is read from it, for a refusal.
+        what: What is read from it, for a refusal.
         kinds: The endings that its name may have, in lower case; None takes any.
         comments: The signs that begin a comment.
 
@@ -374,12 +374,12 @@ def text_rows(
     """
     stamp(path)
     if kinds is not None and path.suffix.lower() not in kinds:
-        raise InputError(f"{path.name}: {noun} are read from text files ({', '.join(kinds)})")
+        raise InputError(f"{path.name}: {what} are read from text files ({', '.join(kinds)})")
     text = text_of(_content(path)[0], path.name)
     most, count = allowance().lines, text.count("\n")
     if count > most:
         raise InputError(
-            f"{path.name}: {count:,} lines; {noun} are read from at most {most:,}{allowance().more}"
+            f"{path.name}: {count:,} lines; {what} are read from at most {most:,}{allowance().more}"
         )
     return [
         (i, line)
@@ -388,18 +388,18 @@ def text_rows(
     ]
 
 
-def word_rows(path: Path, noun: str, kinds: tuple[str, ...] | None) -> list[tuple[int, list[str]]]:
+def word_rows(path: Path, what: str, kinds: tuple[str, ...] | None) -> list[tuple[int, list[str]]]:
     """Return the words of each line of a text file with its number, as `text_rows` does.
 
     Raises:
         InputError: As `text_rows`.
     """
-    return [(i, words) for i, line in text_rows(path, noun, kinds) if (words := words_of(line))]
+    return [(i, words) for i, line in text_rows(path, what, kinds) if (words := words_of(line))]
 
 
-def number_rows(path: Path, noun: str, kinds: tuple[str, ...]) -> list[tuple[int, list[str]]]:
+def number_rows(path: Path, what: str, kinds: tuple[str, ...]) -> list[tuple[int, list[str]]]:
     """Return what `word_rows` does, without a first line that begins with no number."""
-    rows = word_rows(path, noun, kinds)
+    rows = word_rows(path, what, kinds)
     return rows[bool(rows) and not is_number(rows[0][1][0]) :]
 
 
