@@ -181,8 +181,17 @@ def bare(table: pa.Table) -> pa.Table:
 
 def run_content(data: dict[str, Any]) -> dict[str, Any]:
     """Return the data of a published run, its scenes as nodes and arrays."""
-    steps = list(map(without_code, data["steps"]))
-    return {**without_code(data), "steps": steps, "scene": list(scenes(data["scene"]))}
+    told = {
+        "steps": list(map(without_code, data["steps"])),
+        "things": [None if is_code(thing) else thing for thing in data["things"]],
+        "scene": list(scenes(data["scene"])),
+    }
+    return without_code(data) | told
+
+
+def is_code(thing: Any) -> bool:
+    """Whether a thing of a page is the source of what is run."""
+    return isinstance(thing, dict) and str(thing.get("html", "")).startswith("<div data-line=")
 
 
 def without_code(data: dict[str, Any]) -> dict[str, Any]:
