@@ -95,11 +95,10 @@ def _color(state: State, subject: Subject) -> Color:
     if isinstance(result, HeatState) and result.phase != "distances":
         u = np.log10(np.maximum(result.u / result.u.max(), 1e-12))
         return Field(u, -12.0, 0.0, "heat, log₁₀")
-    d = (
-        result.d
-        if isinstance(result, Found | HeatState)
-        else np.where(result.accepted, result.d, np.nan)
-    )  # type: ignore[union-attr]
+    if isinstance(result, Found | HeatState):
+        d = result.d
+    else:
+        d = np.where(result.accepted, result.d, np.nan)  # type: ignore[union-attr]
     truth = subject.truth[np.isfinite(subject.truth)]
     known = d[np.isfinite(d)]
     top = float(truth.max()) if len(truth) else float(known.max(initial=0.0))

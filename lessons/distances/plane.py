@@ -142,7 +142,8 @@ def tried(distance: Distance, rng: np.random.Generator) -> Iterator[Trials]:
             (np.abs(distance(a, b) - distance(b, a)) > 1e-9).sum(),
         ]
         worst = int(np.argmax(excess))
-        shares = dict(zip(names, (*(counts / (k * TRIPLES)), broken / (k * TRIPLES)), strict=True))
+        parts = (*(counts / (k * TRIPLES)), broken / (k * TRIPLES))
+        shares: dict[str, float] = dict(zip(names, parts, strict=True))
         yield Trials(
             tried=k * TRIPLES,
             broken=broken,

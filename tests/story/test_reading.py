@@ -44,7 +44,7 @@ def test_it_is_read_once_and_anew_when_its_page_or_its_lesson_changes(tmp_path):
     site = sure(story_of(there, "site"))
     assert site is not first
     assert story_of(there, "live") is first
-    there.page.write_text("# T\n\n## B {#b}\n\nTwo.\n", encoding="utf-8")
+    sure(there.page).write_text("# T\n\n## B {#b}\n\nTwo.\n", encoding="utf-8")
     assert [scene.name for scene in sure(story_of(there, "live")).scenes] == ["b"]
     other = replace(there, title="Another")
     assert sure(story_of(other, "site")).scenes[0].name == "b"
