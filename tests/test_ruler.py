@@ -19,12 +19,18 @@ def form(node: ast.AST) -> str:
     return f"{type(node).__name__}({', '.join(map(form, parts))})"
 
 
-def unlike(node: ast.AST) -> bool:
-    """Whether a statement gives several names values of unlike expressions: `a, b = f(), 2`."""
+def several(node: ast.AST) -> bool:
+    """Whether a statement gives several names values of several expressions: `a, b = f(), g()`."""
     if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Tuple):
         return False
-    several = any(isinstance(target, ast.Tuple) for target in node.targets)
-    return several and len(set(map(form, node.value.elts))) > 1
+    return any(isinstance(target, ast.Tuple) for target in node.targets)
+
+
+def unlike(node: ast.AST) -> bool:
+    """Whether such a statement's expressions are of unlike kinds: `a, b = f(), 2`."""
+    if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Tuple):
+        return False
+    return several(node) and len(set(map(form, node.value.elts))) > 1
 
 
 NAMELESS = {"now", "found", "one", "said", "what", "there", "who"}
@@ -54,6 +60,7 @@ def many_positional(node: ast.AST) -> bool:
 def counted(folder: str) -> dict[str, int]:
     """How often each of them stands in a folder, and how many files are too long."""
     rules = {
+        "several": several,
         "unlike": unlike,
         "nested": nested,
         "positional": many_positional,
@@ -70,9 +77,30 @@ def counted(folder: str) -> dict[str, int]:
 
 
 CEILINGS: dict[str, dict[str, int]] = {
-    "workbench": {"unlike": 60, "nested": 0, "positional": 121, "nameless": 18, "long files": 4},
-    "lessons": {"unlike": 107, "nested": 1, "positional": 223, "nameless": 150, "long files": 5},
-    "tests": {"unlike": 143, "nested": 20, "positional": 253, "nameless": 1441, "long files": 22},
+    "workbench": {
+        "several": 379,
+        "unlike": 60,
+        "nested": 0,
+        "positional": 121,
+        "nameless": 18,
+        "long files": 4,
+    },
+    "lessons": {
+        "several": 400,
+        "unlike": 107,
+        "nested": 1,
+        "positional": 223,
+        "nameless": 150,
+        "long files": 5,
+    },
+    "tests": {
+        "several": 526,
+        "unlike": 143,
+        "nested": 20,
+        "positional": 253,
+        "nameless": 1434,
+        "long files": 22,
+    },
 }
 
 
@@ -83,6 +111,8 @@ def test_what_the_ruler_counts_only_falls(folder):
 
 
 def test_the_ruler_sees_what_it_counts():
+    assert several(ast.parse("a, b = f(), g()").body[0])
+    assert not several(ast.parse("a, b = f()").body[0])
     assert unlike(ast.parse("a, b = f(), g").body[0])
     assert not unlike(ast.parse("a, b = f(x), g(y)").body[0])
     assert not unlike(ast.parse("a, b = 0.5, 1.5").body[0])

@@ -30,6 +30,7 @@ import numpy as np
 import pyarrow as pa
 import zstandard
 
+from tests.wire.reading import Reader
 from workbench.exercise.finding import exercises
 from workbench.machinery.memory import keep_freed
 from workbench.recording.canonical import tidied
@@ -44,7 +45,6 @@ MANIFEST = ".published.json"
 """The file of a site with digests of the code."""
 SEED = 7
 """What hidden checks are drawn from."""
-Pair = tuple[Any, Any]
 
 
 def main() -> int:
@@ -67,9 +67,9 @@ def main() -> int:
         for name, tree in made.items():
             publish(tree, work / "site" / name, given.lesson)
             grade(tree, handed, work / "grades" / name)
-        found = compared(work / "site" / "before", work / "site" / "now")
-        found["grades"] = compared_grades(work / "grades" / "before", work / "grades" / "now")
-        return told(found, given.bound)
+        results = compared(work / "site" / "before", work / "site" / "now")
+        results["grades"] = compared_grades(work / "grades" / "before", work / "grades" / "now")
+        return told(results, given.bound)
 
 
 def checked_out(commit: str, folder: Path) -> Path:
@@ -106,7 +106,9 @@ def hand_in(folder: Path, lessons: Iterable[str], count: int) -> None:
     """Write solutions of every exercise, the first right ones and wrong ones, as students hand them
     in.
     """
-    wanted = [one for one in exercises().values() if not lessons or one.lesson in lessons]
+    wanted = [
+        exercise for exercise in exercises().values() if not lessons or exercise.lesson in lessons
+    ]
     for exercise in wanted:
         path = SOLUTIONS / f"{exercise.name}.py"
         source = path.read_text(encoding="utf-8")
@@ -130,32 +132,35 @@ def compared(before: Path, now: Path) -> dict[str, list[tuple[str, float]]]:
     """Return by lesson how far apart the files are that it has in two sites; infinite where one is
     missing or has other words.
     """
-    files = [
-        {
-            str(file.relative_to(site)): file
-            for file in site.rglob("*")
-            if file.is_file() and file.name != MANIFEST
-        }
+    names = {
+        str(file.relative_to(site))
         for site in (before, now)
-    ]
-    found: dict[str, list[tuple[str, float]]] = defaultdict(list)
-    for name in sorted(files[0].keys() | files[1].keys()):
+        for file in site.rglob("*")
+        if file.is_file() and file.name != MANIFEST
+    }
+    by_lesson: dict[str, list[tuple[str, float]]] = defaultdict(list)
+    for name in sorted(names):
         lesson = name.partition("/")[0] if name.count("/") else "the site"
-        both = [of[name] for of in files if name in of]
-        off = apart(*map(content, both)) if len(both) == 2 else math.inf
-        found[lesson].append((name, off))
-    return found
+        by_lesson[lesson].append((name, files_apart(before / name, now / name)))
+    return by_lesson
 
 
 def compared_grades(before: Path, now: Path) -> list[tuple[str, float]]:
     """Return how far apart the tables and reports are."""
-    found = []
-    for file in sorted(before.rglob("*")):
-        if file.suffix in (".csv", ".json"):
-            name = file.relative_to(before)
-            other = now / name
-            found.append((str(name), apart(*map(content, (file, other)))))
-    return found
+    names = {
+        str(file.relative_to(folder))
+        for folder in (before, now)
+        for file in folder.rglob("*")
+        if file.suffix in (".csv", ".json")
+    }
+    return [(name, files_apart(before / name, now / name)) for name in sorted(names)]
+
+
+def files_apart(before: Path, now: Path) -> float:
+    """Return how far two files are apart; infinite where one is missing."""
+    if not (before.is_file() and now.is_file()):
+        return math.inf
+    return apart(content(before), content(now))
 
 
 def content(file: Path) -> Any:
@@ -200,85 +205,66 @@ def without_code(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def scenes(text: str) -> Iterator[list[Any]]:
-    """Yield the nodes of each step of a run: name, what it is, and pose."""
+    """Yield the nodes of each step of a run by name, with type, properties and pose."""
     raw = base64.b64decode(text)
     size = int.from_bytes(raw[:8], "little")
-    message = zstandard.ZstdDecompressor().decompress(raw[8:], max_output_size=size)
-    end = 4 + int.from_bytes(message[:4], "little")
-    head = json.loads(message[4:end])
-    arrays: dict[str, bytes] = {}
-    for key, length in head["arrays"]:
-        arrays[key] = message[end : end + length]
-        end += length + -length % 8
-
-    def filled(value: Any) -> Any:
-        if isinstance(value, dict) and "$" in value:
-            return np.frombuffer(arrays[value["$"]], value["as"])
-        if isinstance(value, dict):
-            return {name: filled(one) for name, one in value.items()}
-        return [filled(one) for one in value] if isinstance(value, list) else value
-
-    kinds = {key: filled(kind) for key, kind in head["kinds"].items()}
-    before: dict[str, Any] = {}
+    reader = Reader()
+    head = reader.read(zstandard.ZstdDecompressor().decompress(raw[8:], max_output_size=size))
+    nodes: dict[str, Any] = {}
     for step in head["steps"]:
-        nodes = {
-            node if isinstance(node, str) else node[0]: (
-                before[node] if isinstance(node, str) else (kinds[node[1]], node[2])
-            )
-            for node in step
-        }
-        yield list(nodes.items())
         before = nodes
+        nodes = {}
+        for listed in step:
+            if isinstance(listed, str):  # as in the step before
+                nodes[listed] = before[listed]
+            else:
+                name, key, pose = listed
+                nodes[name] = reader.node(key, pose) | {"key": None}
+        yield list(nodes.items())
 
 
-def apart(one: Any, other: Any) -> float:
+def apart(before: Any, now: Any) -> float:
     """Return how far two values are apart; infinite where they differ in more than numbers."""
-    if one is other:
-        return 0.0
-    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
-        return arrays_apart(one, other)
-    if isinstance(one, str) and isinstance(other, str):
-        return 0.0 if one == other else texts_apart(one, other)
-    if isinstance(one, Mapping) and isinstance(other, Mapping):
-        if list(one) != list(other):
+    if isinstance(before, np.ndarray) and isinstance(now, np.ndarray):
+        return arrays_apart(before, now)
+    if isinstance(before, str) and isinstance(now, str):
+        return 0.0 if before == now else texts_apart(before, now)
+    if isinstance(before, Mapping) and isinstance(now, Mapping):
+        if list(before) != list(now):
             return math.inf
-        return max((apart(one[name], other[name]) for name in one), default=0.0)
-    if isinstance(one, list | tuple) and isinstance(other, list | tuple):
-        if len(one) != len(other):
+        return max((apart(before[name], now[name]) for name in before), default=0.0)
+    if isinstance(before, list | tuple) and isinstance(now, list | tuple):
+        if len(before) != len(now):
             return math.inf
-        return max(map(apart, one, other), default=0.0)
-    if isinstance(one, int | float) and isinstance(other, int | float):
-        return numbers_apart(one, other)
-    return 0.0 if one == other else math.inf
+        return max(map(apart, before, now), default=0.0)
+    if isinstance(before, int | float) and isinstance(now, int | float):
+        return arrays_apart(np.array(float(before)), np.array(float(now)))
+    return 0.0 if before == now else math.inf
 
 
-def arrays_apart(one: np.ndarray, other: np.ndarray) -> float:
-    """Return how far two arrays are apart."""
-    if one.dtype != other.dtype or one.shape != other.shape:
+def arrays_apart(before: np.ndarray, now: np.ndarray) -> float:
+    """Return how far two arrays are apart; what is not finite must be the same."""
+    if before.dtype != now.dtype or before.shape != now.shape:
         return math.inf
-    if one.tobytes() == other.tobytes():
+    if before.tobytes() == now.tobytes():
         return 0.0
-    a, b = (array.astype(float) for array in (one, other))
-    if not np.array_equal(np.isfinite(a), np.isfinite(b)):
+    a = before.astype(float)
+    b = now.astype(float)
+    finite = np.isfinite(a) & np.isfinite(b)
+    if not np.array_equal(a[~finite], b[~finite], equal_nan=True):
         return math.inf
-    off = np.abs(a - b) / np.maximum(1, np.abs(a))
-    return float(np.max(off, initial=0, where=np.isfinite(off)))
+    a, b = a[finite], b[finite]
+    return float(np.max(np.abs(a - b) / np.maximum(1, np.abs(a)), initial=0))
 
 
-def numbers_apart(one: float, other: float) -> float:
-    """Return how far two numbers are apart; what is not finite must be the same."""
-    if one == other or (math.isnan(one) and math.isnan(other)):
-        return 0.0
-    off = abs(one - other) / max(1, abs(one))
-    return off if math.isfinite(off) else math.inf
-
-
-def texts_apart(one: str, other: str) -> float:
+def texts_apart(before: str, now: str) -> float:
     """Return how far the numbers of two texts are apart; infinite where the words differ."""
-    if NUMBER.split(one) != NUMBER.split(other):
+    if NUMBER.split(before) != NUMBER.split(now):
         return math.inf
-    numbers = [[number_of(word) for word in NUMBER.findall(text)] for text in (one, other)]
-    return max(map(numbers_apart, *numbers), default=0.0)
+    numbers = [
+        np.array([number_of(word) for word in NUMBER.findall(text)]) for text in (before, now)
+    ]
+    return arrays_apart(*numbers)
 
 
 def number_of(word: str) -> float:
@@ -290,10 +276,10 @@ def number_of(word: str) -> float:
         return float(plain.replace(".", ""))
 
 
-def told(found: Mapping[str, list[tuple[str, float]]], bound: float) -> int:
-    """Print what was found; return the exit code."""
+def told(results: Mapping[str, list[tuple[str, float]]], bound: float) -> int:
+    """Print what differs; return the exit code."""
     differing = 0
-    for name, files in found.items():
+    for name, files in results.items():
         off = [value for _, value in files]
         equal = sum(value == 0 for value in off)
         near = [value for value in off if 0 < value <= bound]

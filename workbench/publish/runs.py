@@ -19,7 +19,6 @@ from workbench.page.bundles import STATIC
 from workbench.page.document import in_script, lesson_document
 from workbench.page.steps import Steps
 from workbench.picture.stills import Still, still_svg, stills_of
-from workbench.publish.sources import sources_digest
 from workbench.recording import file_name, record_bytes
 from workbench.run.links import show_command
 from workbench.run.timeline import Timeline
@@ -374,8 +373,10 @@ def digest_of(lesson: Lesson, run: Run, sources: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def page_digest(lesson: Lesson, address: str) -> str:
-    """Return what a lesson's page and picture must agree with."""
+def page_digest(lesson: Lesson, address: str, sources: str) -> str:
+    """Return what a lesson's page and picture must agree with: itself, and all source and data that
+    it depends on, by their digest.
+    """
     questions = [
         (
             question.name,
@@ -390,7 +391,7 @@ def page_digest(lesson: Lesson, address: str) -> str:
         for question in lesson.questions
     ]
     text = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"  # noqa: E501
-    digest = hashlib.sha256(f"{text}{sources_digest(lesson)}".encode())
+    digest = hashlib.sha256(f"{text}{sources}".encode())
     for file in sorted(
         (*STATIC.iterdir(), *STATIC.parent.glob("*.py"), *Path(__file__).parent.glob("*.py"))
     ):

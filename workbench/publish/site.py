@@ -184,12 +184,15 @@ def _publish(
     manifest.check(wanted, force=force)
 
     manifest.made_by = made_by
-    _render(manifest, work, progress)
+    sources = {lesson.name: sources_digest(lesson) for lesson in lessons}
+    _render(manifest, work, progress, sources=sources)
     manifest.write({**shared, **leading})
     timelines = Timelines()
     for lesson in lessons:
         data = None if computes is None else computes.page_data(lesson)
-        _write_page(manifest, lesson, timelines, base=base, computes=data)
+        _write_page(
+            manifest, lesson, timelines, base=base, computes=data, sources=sources[lesson.name]
+        )
     listed = others | {
         lesson.name: Listed(
             lesson.title, lesson.summary, lesson.order, lesson.needs, lesson.chapter, lesson.minutes
@@ -243,11 +246,15 @@ def _leading_on(lessons: Sequence[Lesson], names: Collection[str]) -> dict[str, 
 
 
 def _render(
-    manifest: Manifest, work: Sequence[tuple[Lesson, Run]], progress: Progress | None
+    manifest: Manifest,
+    work: Sequence[tuple[Lesson, Run]],
+    progress: Progress | None,
+    *,
+    sources: Mapping[str, str],
 ) -> None:
-    """Write the files of those runs that are not there as they should be."""
-    lessons = {lesson.name: lesson for lesson, _ in work}
-    sources = {name: sources_digest(lesson) for name, lesson in lessons.items()}
+    """Write the files of those runs that are not there as they should be; `sources` are digests,
+    by lesson.
+    """
     digests = {
         (lesson.name, run.name): digest_of(lesson, run, sources[lesson.name])
         for lesson, run in work
@@ -296,6 +303,7 @@ def _write_page(
     *,
     base: str | None,
     computes: Mapping[str, Any] | None,
+    sources: str,
 ) -> None:
     """Write a lesson's page if it is not there as it should be: its questions need runs."""
     key = f"{lesson.name}/"
@@ -303,7 +311,7 @@ def _write_page(
     head = social_head(
         base, key, title=lesson.title, summary=lesson.summary, picture=f"{key}{CARD_PICTURE}"
     )
-    digest = page_digest(lesson, head + ("" if computes is None else in_script(computes)))
+    digest = page_digest(lesson, head + ("" if computes is None else in_script(computes)), sources)
     written = all(manifest.is_ours(f"{key}{name}") for name in (COURSE_PAGE, *pictures))
     if manifest.runs.get(key) == digest and written:
         return
