@@ -24,7 +24,7 @@ def main() -> None:
     DATA.mkdir(exist_ok=True)
     rng = np.random.default_rng(0)
     T_target_source = exp_se3(np.array([0.05, 0.0, 0.02, 0.1, 0.05, 0.5]))
-    scans = pair("rabbit", 2500, T_target_source, rng, overlap=0.8, noise=0.001)
+    scans = pair("rabbit", 2500, T_target_source, rng=rng, overlap=0.8, noise=0.001)
     cloud("rabbit_target.ply", scans.p_target)
     cloud("rabbit_source.ply", scans.p_source)
     np.savetxt(DATA / "rabbit_pose.txt", T_target_source)

@@ -100,7 +100,7 @@ def turn_about_z(angle: float) -> np.ndarray:
 
 @traced
 def approach(
-    p_source: np.ndarray, p_target: np.ndarray, params: Params, turn: Turn
+    p_source: np.ndarray, p_target: np.ndarray, params: Params, *, turn: Turn
 ) -> Iterator[State]:
     """Turn the source step by step until it lies on the target."""
     for k in range(params.steps):
@@ -123,7 +123,7 @@ def run(params: Params, *, turn: Turn = turn_about_z) -> Iterator[State]:
             p_source = np.load(params.scan)
         except (OSError, ValueError) as error:
             raise InputError(f"{params.scan}: not a .npy file of points") from error
-    yield from approach(p_source, p_source * 0.5 + np.array(params.place), params, turn)
+    yield from approach(p_source, p_source * 0.5 + np.array(params.place), params, turn=turn)
 
 
 def colors_of(state: State) -> Color:

@@ -399,7 +399,7 @@ def by_hand(
 
 
 def spoilers(
-    name: str, question: Question, giveaways: Iterable[str], innocent: str = ""
+    name: str, question: Question, giveaways: Iterable[str], *, innocent: str = ""
 ) -> list[str]:
     """Return one line for every passage that gives the answer away, with what does."""
     texts, right = list(read(name, question.name, innocent)), facts(name)[1][question.name]

@@ -67,7 +67,7 @@ def uploads(tmp_path) -> Iterator[Path]:
         ("wrong", r"not readable \(IndexError\)"),
     ],
 )
-def test_what_goes_wrong_is_one_line_and_the_next_file_is_read(tmp_path, capfd, how, said):
+def test_what_goes_wrong_is_one_line_and_the_next_file_is_read(tmp_path, capfd, how, *, said):
     with allowing(replace(PAGE, seconds=1)), pytest.raises(InputError, match=f"a.xyz: .*{said}"):
         stands(tmp_path / "a.xyz", how)
     assert stands(tmp_path / "a.xyz", "well") != os.getpid()

@@ -302,7 +302,7 @@ def test_a_question_that_its_run_does_not_answer_says_so(asked, words):
     from workbench.run.questions import answer
 
     with pytest.raises(InputError) as told:
-        answer(lesson(questions=(asked,)), asked, None, Timelines())
+        answer(lesson(questions=(asked,)), asked, None, timelines=Timelines())
     one_line(str(told.value), "lesson mine, question 'how-many'", *words)
 
 
@@ -329,7 +329,7 @@ lesson = lesson(run=run)
 )
 @pytest.mark.parametrize("command", ["record", "publish"])
 def test_a_lesson_in_a_file_that_fails_is_one_line_with_file_and_line_and_exit_code_2(
-    source, place, command, tmp_path, capsys
+    source, place, command, *, tmp_path, capsys
 ):
     from workbench.cli import main
 

@@ -106,7 +106,9 @@ def refused(capsys, *words: object) -> str:
 @pytest.mark.parametrize(
     "words", [["replay"], ["reopen"], ["compare", "good"]], ids=lambda words: words[0]
 )
-def test_a_bad_file_is_refused_in_one_line_and_left_as_it_is(capsys, good, tmp_path, words, make):
+def test_a_bad_file_is_refused_in_one_line_and_left_as_it_is(
+    capsys, good, tmp_path, *, words, make
+):
     bad = tmp_path / "bad.rrd"
     make(bad, good.read_bytes())
     before = bad.read_bytes() if bad.is_file() else None
@@ -186,7 +188,9 @@ class TestRecord:
             ([FAKE, "--scan", "/nowhere.npy"], "/nowhere.npy"),
         ],
     )
-    def test_what_cannot_be_run_is_said_and_nothing_is_written(self, capsys, tmp_path, words, why):
+    def test_what_cannot_be_run_is_said_and_nothing_is_written(
+        self, capsys, tmp_path, words, *, why
+    ):
         assert why in refused(capsys, "record", *words, "-o", tmp_path / "a.rrd")
         assert os.listdir(tmp_path) == []
 
@@ -211,7 +215,7 @@ class TestRecord:
             (".", "is not a file"),
         ],
     )
-    def test_a_place_that_takes_no_file_is_said(self, capsys, tmp_path, place, why):
+    def test_a_place_that_takes_no_file_is_said(self, capsys, tmp_path, place, *, why):
         (tmp_path / "file").touch()
         assert why in refused(capsys, "record", FAKE, "-o", tmp_path / place)
 
@@ -317,7 +321,7 @@ class TestReplay:
     @pytest.mark.skipif(sys.platform == "win32", reason="the stand-in is a script")
     @pytest.mark.parametrize("code", [0, 1])
     def test_native_opens_reruns_own_window_without_statistics(
-        self, capsys, good, tmp_path, monkeypatch, code
+        self, capsys, good, tmp_path, *, monkeypatch, code
     ):
         window = tmp_path / "window"
         window.write_text(
@@ -366,7 +370,7 @@ class TestReopen:
         assert capsys.readouterr().err == ""
 
     def test_another_version_is_a_warning_and_an_attempt(
-        self, capsys, tmp_path, opened, monkeypatch
+        self, capsys, tmp_path, opened, *, monkeypatch
     ):
         monkeypatch.setattr("workbench.recording.write.__version__", "9.9")
         assert main(["reopen", str(record(QUICK, tmp_path / "a.rrd")), *HIDDEN]) == 0

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests import fake
-from workbench.cli import show
+from workbench.commands.watching import show
 from workbench.errors import InputError
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, catalog
@@ -29,7 +29,7 @@ def opened(command: str) -> RunChoice:
     seen: list[RunChoice] = []
 
     @functools.wraps(show)
-    def seeing(run, serving, step=None, with_=None):
+    def seeing(run, serving, step=None, *, with_=None):
         seen.append(run)
 
     parse(seeing, words, "workbench show", description="")()

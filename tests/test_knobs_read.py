@@ -47,7 +47,7 @@ def field_of(kind: Any, knob: Knob, default: Any) -> knobs.ParamField:
         (bool, Knob(""), False, 0.01),
     ],
 )
-def test_a_slider_has_99_to_990_steps_unless_it_says(kind, knob, default, step):
+def test_a_slider_has_99_to_990_steps_unless_it_says(kind, knob, default, *, step):
     assert field_of(kind, knob, default).step == pytest.approx(step)
 
 
@@ -83,7 +83,7 @@ def test_a_handle_sets_a_place_or_a_pose(length):
         (int, Knob("", 0, None), 1, "low < high"),
     ],
 )
-def test_what_cannot_be_a_control_is_refused(kind, knob, default, line):
+def test_what_cannot_be_a_control_is_refused(kind, knob, default, *, line):
     with pytest.raises(TypeError, match=line):
         field_of(kind, knob, default)
 

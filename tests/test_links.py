@@ -20,7 +20,7 @@ def read(query: str):
     place=st.tuples(*[st.floats(-2, 2)] * 3),
     step=st.one_of(st.none(), st.integers(0, 5000)),
 )
-def test_a_link_leads_back_to_its_place(angle, steps, wobble, place, step):
+def test_a_link_leads_back_to_its_place(angle, steps, wobble, *, place, step):
     here = links.Place(
         fake.lesson, fake.Params(angle=angle, steps=steps, wobble=wobble, place=place), step
     )

@@ -116,7 +116,7 @@ def test_a_lesson_of_the_course_by_its_path_is_loaded_anew_with_all_its_modules(
 # commands -----------------------------------------------------------------------------------------
 
 
-def test_a_folder_is_shown_recorded_and_opened_again(folder, tmp_path, monkeypatch, capsys):
+def test_a_folder_is_shown_recorded_and_opened_again(folder, tmp_path, monkeypatch, *, capsys):
     opened: list[tuple] = []
     monkeypatch.setattr("workbench.viewer.serving.serve", lambda *place, **_: opened.append(place))
     monkeypatch.chdir(tmp_path)
@@ -131,7 +131,7 @@ def test_a_folder_is_shown_recorded_and_opened_again(folder, tmp_path, monkeypat
 
 
 def test_a_folder_s_exercise_is_handed_out_watched_checked_and_graded(
-    folder, tmp_path, monkeypatch, capsys
+    folder, tmp_path, monkeypatch, *, capsys
 ):
     watched = []
     monkeypatch.setattr(

@@ -108,7 +108,7 @@ def fed(chromium) -> Iterator[Fed]:
     fed.close()
 
 
-def walk_live(fed: Fed, scenes: Sequence[Scene], order: Sequence[int], by: int = 0) -> None:
+def walk_live(fed: Fed, scenes: Sequence[Scene], order: Sequence[int], *, by: int = 0) -> None:
     """Show scenes in this order on a page; hold what its client draws to what it draws of each
     alone.
     """

@@ -59,6 +59,6 @@ def test_a_click_sets_the_field_that_names_what_was_hit():
     scene = {"plane": Picture(np.zeros((48, 64), np.uint8), width=width)}
     above = np.array([0.0, 0.0, 3.0])
     at = np.array([(12 - 31.5) * width / 64, (30 - 23.5) * width / 64, 0.0])
-    assert picked_params(Params(), scene, above, at - above) == {"pixel": (12, 30)}
-    assert picked_params(Params(), scene, above, above) == {}
-    assert picked_params(Params(), {}, above, at - above) == {}
+    assert picked_params(Params(), scene, above, v_ray=at - above) == {"pixel": (12, 30)}
+    assert picked_params(Params(), scene, above, v_ray=above) == {}
+    assert picked_params(Params(), {}, above, v_ray=at - above) == {}

@@ -23,8 +23,8 @@ KEPT = Timelines()
         (CHOICE, None, False, "the second"),
     ],
 )
-def test_a_prediction_is_compared_with_the_run(question, given, right, truth):
-    found = answer(lesson, question, given, KEPT)
+def test_a_prediction_is_compared_with_the_run(question, given, right, *, truth):
+    found = answer(lesson, question, given, timelines=KEPT)
     assert (found.right, found.truth) == (right, truth)
     assert found.step == 5
     assert len(KEPT) == 1
@@ -43,7 +43,7 @@ def test_a_prediction_is_compared_with_the_run(question, given, right, truth):
     ],
 )
 def test_a_known_wrong_answer_is_answered_by_name(question, given, reply):
-    assert answer(lesson, question, given, KEPT).reply == reply
+    assert answer(lesson, question, given, timelines=KEPT).reply == reply
 
 
 @pytest.mark.parametrize(
@@ -57,7 +57,7 @@ def test_a_known_wrong_answer_is_answered_by_name(question, given, reply):
 )
 def test_what_is_no_answer_to_a_question_is_refused(question, given, words):
     with pytest.raises(InputError, match=words):
-        answer(lesson, question, given, KEPT)
+        answer(lesson, question, given, timelines=KEPT)
 
 
 @pytest.mark.parametrize("of_course", course().values(), ids=lambda one: one.name)

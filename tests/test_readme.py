@@ -96,7 +96,7 @@ def test_the_lesson_is_published_with_its_summary_as_its_page(tmp_path, lesson_f
     "command", [["show"], ["record", "-o", "a.rrd"], ["publish", "site", "--lesson"]]
 )
 def test_a_page_that_is_not_there_is_one_line_with_lesson_and_path(
-    capsys, monkeypatch, lesson_file, command
+    capsys, monkeypatch, lesson_file, *, command
 ):
     monkeypatch.chdir(lesson_file.parent)
     text = lesson_file.read_text(encoding="utf-8").replace(

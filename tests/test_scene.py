@@ -211,7 +211,7 @@ def test_a_matrix_is_a_table_of_its_numbers():
         (False, False, "End. It is wrong.", "wrong"),
     ],
 )
-def test_a_verdict_says_what_only_the_truth_shows(right, settled, text, tone):
+def test_a_verdict_says_what_only_the_truth_shows(right, settled, text, *, tone):
     caption = Caption.verdict("End.", right=right, settled=settled)
     assert (caption.text, caption.tone) == (text, tone)
 

@@ -38,7 +38,9 @@ def looked(session: Session) -> Shown:
         (lesson, Params(steps=3), 8, 2),
     ],
 )
-def test_a_run_opens_at_the_step_that_is_asked_for_or_where_its_lesson_opens(of, params, step, k):
+def test_a_run_opens_at_the_step_that_is_asked_for_or_where_its_lesson_opens(
+    of, params, step, *, k
+):
     session = Session(lesson)
     session.open(of, params, step)
     assert looked(session).k == k

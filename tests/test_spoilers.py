@@ -28,7 +28,10 @@ def test_nothing_before_a_prediction_tells_its_answer(name, question):
     of_lesson = listed(name)
     giveaways = of_lesson.GIVEAWAYS.get(question.name, ())
     found = spoilers(
-        name, question, giveaways, getattr(of_lesson, "INNOCENT", {}).get(question.name, "")
+        name,
+        question,
+        giveaways,
+        innocent=getattr(of_lesson, "INNOCENT", {}).get(question.name, ""),
     )
     assert not found, "\n".join(["the answer is given away:", *found])
 
@@ -41,7 +44,7 @@ def test_for_every_question_somebody_thought_of_what_would_tell_its_answer(name)
 
 
 def question(
-    text: str, unit: str = "", tolerance: float = 0.0, choices: tuple[str, ...] = ()
+    text: str, unit: str = "", tolerance: float = 0.0, *, choices: tuple[str, ...] = ()
 ) -> Question:
     return Question(
         "q", text, lambda states: 0.0, lambda states: "", "a run", choices, unit, tolerance
@@ -86,6 +89,6 @@ WHAT = question(FAR, choices=FAR_CHOICES)
         (WHAT, 2.0, "A fit of the wrong kind", None, False),
     ],
 )
-def test_the_rules_tell_a_spoiler_from_a_coincidence(asked, right, text, run, told):
+def test_the_rules_tell_a_spoiler_from_a_coincidence(asked, right, text, *, run, told):
     rule = by_choice if asked.choices else by_number
     assert bool(list(rule(asked, right, [Passage("here", text, run)]))) is told

@@ -111,7 +111,7 @@ def install(monkeypatch):
     ],
 )
 def test_a_lesson_with_a_taken_name_is_left_out_and_both_places_are_named(
-    capsys, install, values, said
+    capsys, install, values, *, said
 ):
     install(*values)
     with pytest.warns(LeftOutWarning, match=said):
@@ -156,7 +156,7 @@ def test_a_lesson_with_a_taken_name_is_left_out_and_both_places_are_named(
     ],
 )
 def test_an_exercise_that_cannot_stand_is_left_out_and_its_place_is_named(
-    capsys, packages, install, names, said, more
+    capsys, packages, install, *, names, said, more
 ):
     install(*(f"their_{name}.lesson:lesson" for name in names))
     with pytest.warns(LeftOutWarning, match=said):
@@ -218,7 +218,7 @@ def test_what_is_left_out_is_one_line_where_a_person_reads_it(tmp_path):
     ],
 )
 def test_a_clash_inside_the_course_is_refused_with_both_places(
-    tmp_path, names, exercise, command, said
+    tmp_path, names, exercise, *, command, said
 ):
     for folder, name in zip(("one", "two"), names, strict=True):
         (tmp_path / "lessons" / folder / "exercises").mkdir(parents=True)

@@ -8,7 +8,8 @@ import pytest
 
 from tests.fake import Params, lesson
 from workbench.errors import AuthorError
-from workbench.run.timeline import MOST_BYTES, Timeline, Timelines, plotted_values
+from workbench.run.series import plotted_values
+from workbench.run.timeline import MOST_BYTES, Timeline, Timelines
 from workbench.scene import Caption, Label, Primitive, Scalar
 
 

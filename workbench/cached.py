@@ -156,7 +156,7 @@ def cached(function: Any = None, /, *, most: int = 32) -> Any:
                 _tell(outer, reads.names)
             for array in arrays(value):
                 array.setflags(write=False)
-            kept.keep(values, others, tuple(sorted(reads.names)), value)
+            kept.keep(values, others, tuple(sorted(reads.names)), value=value)
             return value
         names, value = entry
         _tell(outer, names)
@@ -226,7 +226,7 @@ class _Kept:
                     return names, self._values[key]
         return None
 
-    def keep(self, values: Values, others: Hashable, names: tuple[str, ...], value: Any) -> None:
+    def keep(self, values: Values, others: Hashable, names: tuple[str, ...], *, value: Any) -> None:
         with self._lock:
             self._read[names] = None
             self._values[self._key(values, others, names)] = value

@@ -73,7 +73,7 @@ def replay(
         raise InputError(f"height = {height}: the page needs {LEAST_HEIGHT} pixels or more")
     base = None if preset is None else chosen.preset(preset).params
     return Replay(
-        chosen, chosen.validated(knobs.make(chosen.params, params, base=base)), steps, height
+        chosen, chosen.validated(knobs.make(chosen.params, params, base=base)), steps, height=height
     )
 
 
@@ -90,7 +90,7 @@ class Replay:
         InputError: If the run gives no step.
     """
 
-    def __init__(self, lesson: Lesson, params: Any, steps: int | None, height: int):
+    def __init__(self, lesson: Lesson, params: Any, steps: int | None, *, height: int):
         self.lesson, self.params, self.height = lesson, params, height
         self.timeline = Timeline(lesson, params)
         while (steps is None or len(self.timeline) < steps) and self.timeline.extend():

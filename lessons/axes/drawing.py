@@ -69,8 +69,8 @@ def draw(look: Look) -> Scene:
     reach = _reach(state.axes, covariance)
     if outcome is None:
         axes = largest_entry_signs(state.axes) * reach
-        return scene | _lines("frame", state.p_centre, axes, "axis {}", "123")
-    scene |= _arrows("frame", state.p_centre, state.axes * reach, T)
+        return scene | _lines("frame", state.p_centre, axes, name="axis {}", letters="123")
+    scene |= _arrows("frame", state.p_centre, state.axes * reach, T=T)
     return scene | _boxes(scans, state, T) | _missed(scans, state, T) | _tips(scans, state)
 
 
@@ -86,7 +86,7 @@ def draw_race(look: Look) -> Scene:
             words += f", {angle(float(race.off[k]), 2)} off"
         names.append((words, role))
     lit = None if not race.is_told else race.winner
-    return {"caption": of_race(look)} | _four(scans, race.T, lit, names) | of_starts(look)
+    return {"caption": of_race(look)} | _four(scans, race.T, lit, names=names) | of_starts(look)
 
 
 def _scans(scans: Scans, T_world_source: np.ndarray) -> dict[str, Primitive]:
@@ -126,8 +126,8 @@ def _candidates(look: Look) -> dict[str, Primitive]:
     cell = _cells(scans)[chosen] @ T[chosen]
     axes = sure(state.axes)
     covariance = sure(state.jacobi).V @ sure(state.jacobi).A @ sure(state.jacobi).V.T
-    shown = _arrows("frame", state.p_centre, axes * _reach(axes, covariance), cell)
-    return _four(scans, T, chosen, names) | shown
+    shown = _arrows("frame", state.p_centre, axes * _reach(axes, covariance), T=cell)
+    return _four(scans, T, chosen, names=names) | shown
 
 
 def _both(look: Look) -> dict[str, Primitive]:
@@ -146,7 +146,7 @@ def _both(look: Look) -> dict[str, Primitive]:
         scene[f"both/{role}"] = Points(p, role, _radius(scans), T, name=name)
         ends = axes * _reach(state.axes, covariance)
         name = "axis {}" if role == "source" else ""
-        scene |= _lines(f"axes/{role}", p.mean(axis=0), ends, name, "123", T)
+        scene |= _lines(f"axes/{role}", p.mean(axis=0), ends, name=name, letters="123", T=T)
     return scene
 
 
@@ -158,7 +158,7 @@ def _cells(scans: Scans) -> np.ndarray:
 
 
 def _four(
-    scans: Scans, T: np.ndarray, lit: int | None, names: list[tuple[str, Role]]
+    scans: Scans, T: np.ndarray, lit: int | None, *, names: list[tuple[str, Role]]
 ) -> dict[str, Primitive]:
     """Return four copies of the target, the source laid on each by a motion; those not lit are
     ghosts.
@@ -186,7 +186,7 @@ def _turned(state: State) -> dict[str, Primitive]:
     rotated = sure(state.jacobi)
     m = state.p_centre
     reach = BEYOND * SIGMAS * np.sqrt(np.maximum(np.diag(rotated.A), 1e-6))
-    scene = _lines("frame", m, rotated.V * reach, "turned {}", "xyz")
+    scene = _lines("frame", m, rotated.V * reach, name="turned {}", letters="xyz")
     if rotated.plane is None:
         return scene
     i, j = rotated.plane
@@ -304,6 +304,7 @@ def _lines(
     path: str,
     p: np.ndarray,
     axes: np.ndarray,
+    *,
     name: str,
     letters: str,
     T: np.ndarray | None = None,
@@ -316,7 +317,7 @@ def _lines(
     }
 
 
-def _arrows(path: str, p: np.ndarray, axes: np.ndarray, T: np.ndarray) -> dict[str, Primitive]:
+def _arrows(path: str, p: np.ndarray, axes: np.ndarray, *, T: np.ndarray) -> dict[str, Primitive]:
     """Return three arrows from a point, along the columns of a matrix, with their numbers."""
     scene: dict[str, Primitive] = {}
     for k in range(3):

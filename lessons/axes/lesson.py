@@ -10,7 +10,8 @@ from pathlib import Path
 
 from lessons.axes import drawing, flat, space, starts
 from lessons.axes.inputs import Input
-from lessons.axes.presets import FIRST, PRESETS, QUESTIONS, SWEEPS, VIEW, VIEWS
+from lessons.axes.presets import FIRST, PRESETS, SWEEPS, VIEW, VIEWS
+from lessons.axes.questions import QUESTIONS
 from lessons.axes.scans import Scans, scans_of
 from workbench.lesson import Lesson, Look, Slot
 from workbench.scene import Scene
@@ -44,7 +45,7 @@ def run(
     elif params.stage == "turn":
         yield from space.by_hand(subject)
     else:
-        yield from space.steps(params, subject, principal_axes, canonical_signs)
+        yield from space.steps(params, subject, principal_axes, sign=canonical_signs)
 
 
 def draw(look: Look) -> Scene:

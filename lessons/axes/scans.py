@@ -68,12 +68,14 @@ def _scans(params: Input) -> Scans:
     shape = sample(params.points, rng)
     p_target = shape + params.noise * rng.standard_normal(shape.shape)
     R = true_rotation(params)
-    p_source = second_scan(params, sample, R, rng, None if params.fresh else shape)
+    p_source = second_scan(params, sample, R, rng=rng, shape=None if params.fresh else shape)
     sides = None
     if params.source is None and params.shape in ("box", "cube"):
         sides = (1.0, params.side, LOW) if params.shape == "box" else (1.0, 1.0, 1.0)
     subject = f"one {params.shape}" if params.source is None else params.source.name
-    return _beside(p_target, p_source, motion(R, np.zeros(3)), params, subject, sides)
+    return _beside(
+        p_target, p_source, motion(R, np.zeros(3)), params=params, subject=subject, sides=sides
+    )
 
 
 def sample_of(params: Input) -> Sample:
@@ -94,6 +96,7 @@ def second_scan(
     params: Input,
     sample: Sample,
     R_target_source: np.ndarray,
+    *,
     rng: np.random.Generator,
     shape: np.ndarray | None = None,
 ) -> np.ndarray:
@@ -115,16 +118,17 @@ def second_scan(
 def _own_pair(params: Input) -> Scans:
     assert params.source is not None
     assert params.target is not None
-    p_target, p_source, T = own_pair(params.target, params.source, params.truth, params.up)
+    p_target, p_source, T = own_pair(params.target, params.source, params.truth, up=params.up)
     rng = np.random.default_rng(params.seed)
     p_target, p_source = (some_points(p, params.points, rng) for p in (p_target, p_source))
-    return _beside(p_target, p_source, T, params, "your own")
+    return _beside(p_target, p_source, T, params=params, subject="your own")
 
 
 def _beside(
     p_target: np.ndarray,
     p_source: np.ndarray,
     T: np.ndarray | None,
+    *,
     params: Input,
     subject: str,
     sides: tuple[float, float, float] | None = None,

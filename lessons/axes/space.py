@@ -132,7 +132,7 @@ class State:
     box: float = float("nan")
 
 
-def steps(params: Input, scans: Scans, find: Slot | None, sign: Slot | None) -> Iterator[State]:
+def steps(params: Input, scans: Scans, find: Slot | None, *, sign: Slot | None) -> Iterator[State]:
     """Yield the steps; where functions are given in place of ours (None), without the many
     turns.
     """
@@ -149,11 +149,11 @@ def steps(params: Input, scans: Scans, find: Slot | None, sign: Slot | None) -> 
     variances = np.einsum("ij,ik,kj->j", axes, covariance, axes)
     state = replace(state, moment="order", variances=variances, axes=axes, axes_target=axes_target)
     yield state
-    frames = outcomes(scans, p_centre, axes, axes_target)
+    frames = outcomes(scans, p_centre, axes, axes_target=axes_target)
     moments = third_moments(axes, scans.p_source)
-    axes = with_signs(axes, scans.p_source, params, sign)
-    axes_target = with_signs(axes_target, scans.p_target, params, sign)
-    outcome = outcome_of(scans, p_centre, axes, axes_target)
+    axes = with_signs(axes, scans.p_source, params, sign=sign)
+    axes_target = with_signs(axes_target, scans.p_target, params, sign=sign)
+    outcome = outcome_of(scans, p_centre, axes, axes_target=axes_target)
     R = outcome.T_target_source
     chosen = [degrees_between(frame.T_target_source, R) for frame in frames]
     state = replace(
@@ -185,7 +185,7 @@ def candidates(scans: Scans, find: Slot | None) -> Iterator[State]:
         axes=axes,
         axes_target=axes_target,
         variances=np.einsum("ij,ik,kj->j", axes, covariance, axes),
-        frames=outcomes(scans, p_centre, axes, axes_target),
+        frames=outcomes(scans, p_centre, axes, axes_target=axes_target),
     )
     yield state
     for k, right_handed in enumerate(right_handed_frames(axes)):
@@ -193,11 +193,12 @@ def candidates(scans: Scans, find: Slot | None) -> Iterator[State]:
 
 
 def outcomes(
-    scans: Scans, p_centre: np.ndarray, axes: np.ndarray, axes_target: np.ndarray
+    scans: Scans, p_centre: np.ndarray, axes: np.ndarray, *, axes_target: np.ndarray
 ) -> tuple[Outcome, ...]:
     """Return what comes of laying each right-handed frame with these axes on the target's."""
     return tuple(
-        outcome_of(scans, p_centre, frame, axes_target) for frame in right_handed_frames(axes)
+        outcome_of(scans, p_centre, frame, axes_target=axes_target)
+        for frame in right_handed_frames(axes)
     )
 
 
@@ -224,7 +225,7 @@ def by_jacobi(p: np.ndarray) -> np.ndarray:
 
 
 def with_signs(
-    axes: np.ndarray, p: np.ndarray, params: Input, sign: Slot | None = None
+    axes: np.ndarray, p: np.ndarray, params: Input, *, sign: Slot | None = None
 ) -> np.ndarray:
     """Return axes with the signs of the chosen rule."""
     if params.signs == "none":
@@ -235,7 +236,7 @@ def with_signs(
 
 
 def outcome_of(
-    scans: Scans, p_centre: np.ndarray, axes: np.ndarray, axes_target: np.ndarray
+    scans: Scans, p_centre: np.ndarray, axes: np.ndarray, *, axes_target: np.ndarray
 ) -> Outcome:
     """Return what comes of laying one frame on the other: R = V_target V_source^T."""
     R = axes_target @ axes.T
@@ -285,7 +286,7 @@ def many_turns(params: Input, scans: Scans, axes_target: np.ndarray) -> Turns:
     for Q in turns:
         p_source = scans.p_source
         if is_fresh:
-            p_source = second_scan(params, sample_of(params), R, rng)
+            p_source = second_scan(params, sample_of(params), R, rng=rng)
         p_turned = p_source @ Q.T
         brought.append(R @ Q.T @ with_signs(by_jacobi(p_turned), p_turned, params))
     return Turns(

@@ -82,7 +82,10 @@ def race(scans: Scans, find: Slot | None) -> Iterator[Race]:
     with untraced():
         axes, axes_target = ((find or by_jacobi)(p) for p in (scans.p_source, scans.p_target))
     T = np.stack(
-        [outcome.T_target_source for outcome in outcomes(scans, p_centre, axes, axes_target)]
+        [
+            outcome.T_target_source
+            for outcome in outcomes(scans, p_centre, axes, axes_target=axes_target)
+        ]
     )
     runs = [_icp(scans, start) for start in T]
     rmse = np.zeros(4)
@@ -93,7 +96,7 @@ def race(scans: Scans, find: Slot | None) -> Iterator[Race]:
             match = next(runs[k])  # where it lies now
             T[k], rmse[k], running[k] = match.T_target_source, match.rmse, match.stop is None
         if count in ROUNDS or not any(running):
-            yield _now(scans, count, T, rmse)
+            yield _now(scans, count, T, rmse=rmse)
         for k in np.flatnonzero(running):
             fit = next(runs[k])
             if fit.stop is not None:
@@ -104,10 +107,10 @@ def race(scans: Scans, find: Slot | None) -> Iterator[Race]:
     end = (alone.T_target_source, alone.rmse)
     told = [False] if scans.T_target_source is None else [False, True]
     for is_told in told:
-        yield _now(scans, count + 1, T, rmse, is_end=True, is_told=is_told, alone=end)
+        yield _now(scans, count + 1, T, rmse=rmse, is_end=True, is_told=is_told, alone=end)
 
 
-def _now(scans: Scans, count: int, T: np.ndarray, rmse: np.ndarray, **more: Any) -> Race:
+def _now(scans: Scans, count: int, T: np.ndarray, *, rmse: np.ndarray, **more: Any) -> Race:
     off = np.full(4, np.nan)
     if scans.T_target_source is not None:
         off = np.array([degrees_between(pose, scans.T_target_source) for pose in T])

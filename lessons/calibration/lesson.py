@@ -109,7 +109,7 @@ def endings(state: State, corner: float | None) -> Iterator[State]:
     known = Ending(
         kind="known",
         worst=worst,
-        deviation=deviations(subject.size, refined.K, refined.lens, refined.covariance),
+        deviation=deviations(subject.size, refined.K, refined.lens, covariance=refined.covariance),
         tilts=over_tilt(state.params) if subject.K is not None and state.params.noise > 0 else None,
     )
     yield replace(state, ending=known)

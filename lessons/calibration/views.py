@@ -136,7 +136,13 @@ def _taken(params: Params, view: int) -> np.ndarray:
     K = resize_intrinsics(boards.K_TRUE, w / boards.SIZE[0], h / boards.SIZE[1])
     item = MeshItem(boards.printed(p, params.fault), faces, colors)
     return render(
-        [item], T_camera_board, K, w, h, boards.LENS_TRUE, background=(196, 203, 212)
+        [item],
+        T_camera_board,
+        K,
+        width=w,
+        height=h,
+        distortion=boards.LENS_TRUE,
+        background=(196, 203, 212),
     ).colors
 
 
@@ -161,7 +167,7 @@ def _true_rays() -> np.ndarray:
 
 
 def deviations(
-    size: tuple[int, int], K: np.ndarray, lens: Distortion, covariance: np.ndarray | None
+    size: tuple[int, int], K: np.ndarray, lens: Distortion, *, covariance: np.ndarray | None
 ) -> np.ndarray:
     """Return over the picture the predicted standard deviation, in its worst direction, of where a
     ray is seen, pixels.
@@ -171,9 +177,9 @@ def deviations(
         return np.full(GRID[::-1], np.nan)
     p = np.column_stack([xy, np.ones(len(xy))])
     shared = shared_numbers(K, lens)
-    J = linearised(shared, np.eye(3)[None], np.zeros((1, 3)), p, np.zeros((1, len(p), 2)))[
-        0, : len(covariance)
-    ]
+    J = linearised(
+        shared, np.eye(3)[None], np.zeros((1, 3)), p_board=p, uv=np.zeros((1, len(p), 2))
+    )[0, : len(covariance)]
     J = J.reshape(len(covariance), 2, -1)
     C = np.einsum("iap,ij,jbp->pab", J, covariance, J)
     known = np.isfinite(C).all(axis=(1, 2))
@@ -197,7 +203,11 @@ def _over_tilt(params: Params) -> tuple[np.ndarray, np.ndarray]:
     for tilt in TILTS:
         T = _poses(np.random.default_rng(params.seed), params, tilt)
         block = linearised(
-            shared, T[:, :3, :3], T[:, :3, 3], p_board, np.zeros((len(T), len(p_board), 2))
+            shared,
+            T[:, :3, :3],
+            T[:, :3, 3],
+            p_board=p_board,
+            uv=np.zeros((len(T), len(p_board), 2)),
         )
         sd.append(
             params.noise * float(np.sqrt(np.linalg.inv(shared_information(block, free))[0, 0]))

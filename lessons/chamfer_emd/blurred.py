@@ -71,9 +71,9 @@ def setup(params: Input) -> Pairs:
     """Return both pairs of clouds and what Sinkhorn says of them at every blur."""
     target = spread("ring", params.points)
     rng = np.random.default_rng(params.seed)
-    far = blob(params.points, 0.3, True, rng)
+    far = blob(params.points, 0.3, True, rng=rng)
     with untraced():
-        *_, end = flow(far, target, earth_movers, earth_movers_gradient, max_steps=40)
+        *_, end = flow(far, target, earth_movers, gradient=earth_movers_gradient, max_steps=40)
     both = far, end.p_moving
     exact = np.array([earth_movers(p, target) for p in both])
     results = [[cost_of(p, target, blur) for p in both] for blur in BLURS.tolist()]
@@ -105,10 +105,10 @@ def draw(look: Look[Input, Pairs, Held]) -> Scene:
     state, pairs = look.now, look.subject
     level = np.ones(len(BLURS))
     scene: Scene = {
-        **_pair("left", pairs.p_far, pairs.p_target, state.plans[0], T_WORLD_LEFT),
-        **_pair("right", pairs.p_near, pairs.p_target, state.plans[1], T_WORLD_RIGHT),
-        **titled("left", "a blob", _said(state, pairs, 0), T_WORLD_LEFT),
-        **titled("right", "almost at home", _said(state, pairs, 1), T_WORLD_RIGHT),
+        **_pair("left", pairs.p_far, pairs.p_target, plan=state.plans[0], T=T_WORLD_LEFT),
+        **_pair("right", pairs.p_near, pairs.p_target, plan=state.plans[1], T=T_WORLD_RIGHT),
+        **titled("left", "a blob", _said(state, pairs, 0), T_world_side=T_WORLD_LEFT),
+        **titled("right", "almost at home", _said(state, pairs, 1), T_world_side=T_WORLD_RIGHT),
         "blur": BLUR.scalar(state.blur, "blur"),
         "caption": caption(state),
     }
@@ -125,10 +125,10 @@ def _said(state: Held, pairs: Pairs, k: int) -> tuple[str, str]:
 
 
 def _pair(
-    side: str, p: np.ndarray, p_target: np.ndarray, plan: np.ndarray, T: np.ndarray
+    side: str, p: np.ndarray, p_target: np.ndarray, *, plan: np.ndarray, T: np.ndarray
 ) -> dict[str, Primitive]:
     """Return a pair of clouds, and lines for the mass that goes between them."""
-    scene = clouds_in(side, p, p_target, T)
+    scene = clouds_in(side, p, p_target, T_world_side=T)
     most = np.inf
     for name, least, opacity, width in STRANDS:
         i, j = np.nonzero((plan[::DRAWN] >= least) & (plan[::DRAWN] < most))

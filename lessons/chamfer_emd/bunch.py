@@ -119,13 +119,18 @@ def draw(look: Look[Input, Rings, Held]) -> Scene:
     x = 100 * SHARES
     here = 100 * state.share
     return {
-        **_cloud("left", state.p, rings, T_WORLD_LEFT),
-        **_cloud("right", rings.p_larger, rings, T_WORLD_RIGHT),
-        **clumps("left", state.p, 0.5 * disc(len(state.p)), T_WORLD_LEFT),
+        **_cloud("left", state.p, rings, T=T_WORLD_LEFT),
+        **_cloud("right", rings.p_larger, rings, T=T_WORLD_RIGHT),
+        **clumps("left", state.p, 0.5 * disc(len(state.p)), T_world_side=T_WORLD_LEFT),
         **_count(state),
-        **titled("left", "B: a bunch", both(state.chamfer, state.earth_movers), T_WORLD_LEFT),
         **titled(
-            "right", "L: 5 % larger", both(state.larger_chamfer, state.larger_emd), T_WORLD_RIGHT
+            "left", "B: a bunch", both(state.chamfer, state.earth_movers), T_world_side=T_WORLD_LEFT
+        ),
+        **titled(
+            "right",
+            "L: 5 % larger",
+            both(state.larger_chamfer, state.larger_emd),
+            T_world_side=T_WORLD_RIGHT,
         ),
         "larger": TIMES.second(x, np.ones(len(x)), "L", "truth"),
         "chamfer/whole": TIMES.whole(x, rings.chamfer / rings.larger_chamfer, "Chamfer", "source"),
@@ -158,11 +163,11 @@ def both(chamfer_now: float, emd_now: float) -> tuple[str, str]:
     return f"Chamfer {squared(chamfer_now)}", f"EMD {metres(emd_now)}"
 
 
-def _cloud(side: str, p: np.ndarray, rings: Rings, T: np.ndarray) -> dict[str, Primitive]:
+def _cloud(side: str, p: np.ndarray, rings: Rings, *, T: np.ndarray) -> dict[str, Primitive]:
     """Return the ring, a cloud over it, and the partners that one to one gives."""
     matching = best_matching(p, rings.p_target)
     return {
-        **clouds_in(side, p, rings.p_target, T),
+        **clouds_in(side, p, rings.p_target, T_world_side=T),
         f"{side}/pairs": Segments(
             between(p[matching.i_a], rings.p_target[matching.i_b]),
             "correspondence",

@@ -54,7 +54,7 @@ def clouds_of(params: Input) -> Clouds:
         framed = frame(whole, WIDTH, far=FAR)
         p_target = framed.shown(some_points(whole, params.points, rng))
     if params.source is None:
-        p_source = changed(p_target, params.start, params.amount, params, rng)
+        p_source = changed(p_target, params.start, params.amount, params=params, rng=rng)
         name = _name(params)
     else:
         p_source = framed.shown(
@@ -65,7 +65,7 @@ def clouds_of(params: Input) -> Clouds:
 
 
 def changed(
-    p_target: np.ndarray, start: Start, amount: float, params: Input, rng: np.random.Generator
+    p_target: np.ndarray, start: Start, amount: float, *, params: Input, rng: np.random.Generator
 ) -> np.ndarray:
     """Return a source: a blob, or the target, with as many points as are asked for, after one
     change.
@@ -74,7 +74,7 @@ def changed(
     count = params.source_points or len(p_target)
     share = min(amount, 1.0)
     if start == "blob":
-        return blob(count, amount, bool(np.ptp(p_target[:, 1]) == 0), rng)
+        return blob(count, amount, bool(np.ptp(p_target[:, 1]) == 0), rng=rng)
     if start == "doubled points":
         return doubled(p_target, share)
     if start == "bunched" and built_in:
@@ -107,7 +107,7 @@ def yardsticks(clouds: Clouds, params: Input) -> tuple[tuple[str, np.ndarray], .
     rng = np.random.default_rng(params.seed)
     alike = Input(shape=params.shape, points=params.points, target=params.target)
     return tuple(
-        (name, changed(clouds.p_target, start, amount, alike, rng))
+        (name, changed(clouds.p_target, start, amount, params=alike, rng=rng))
         for name, start, amount in YARDSTICKS
     )
 

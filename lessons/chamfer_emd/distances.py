@@ -38,7 +38,7 @@ class Measures:
 
 
 def measured(
-    flow: Flow, before: Side | None, p_target: np.ndarray, params: Input, measures: Measures
+    flow: Flow, before: Side | None, p_target: np.ndarray, *, params: Input, measures: Measures
 ) -> Side:
     """Measure a flow where it is, or return what was measured where it has been waiting."""
     if before is not None and before.flow is flow:
@@ -47,7 +47,9 @@ def measured(
         nearest_both_ways(flow.p_moving, p_target),
         best_matching(flow.p_moving, p_target),
     )
-    now_numbers = numbers(flow.p_moving, p_target, near, matching, params, measures)
+    now_numbers = numbers(
+        flow.p_moving, p_target, near, matching=matching, params=params, measures=measures
+    )
     return Side(
         flow=flow,
         numbers=now_numbers,
@@ -62,6 +64,7 @@ def numbers(
     p: np.ndarray,
     p_target: np.ndarray,
     near: NearestPoints,
+    *,
     matching: TransportPlan,
     params: Input,
     measures: Measures,
@@ -88,9 +91,9 @@ def numbers_of_yardsticks(clouds: Clouds, params: Input, measures: Measures) -> 
             p,
             p_target,
             nearest_both_ways(p, p_target),
-            best_matching(p, p_target),
-            params,
-            measures,
+            matching=best_matching(p, p_target),
+            params=params,
+            measures=measures,
         )
         for name, p in yardsticks(clouds, params)
     }

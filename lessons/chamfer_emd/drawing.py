@@ -53,8 +53,8 @@ def draw(look: Look[Input, Clouds, Step]) -> Scene:
     left, right = state.left, state.right
     return {
         "caption": caption(state),
-        **titled("left", *left_label(state), T_WORLD_LEFT),
-        **titled("right", *right_label(state), T_WORLD_RIGHT),
+        **titled("left", *left_label(state), T_world_side=T_WORLD_LEFT),
+        **titled("right", *right_label(state), T_world_side=T_WORLD_RIGHT),
         **_clouds(state),
         **_trails(look),
         **_left_edges(state),
@@ -149,8 +149,8 @@ def _clouds(state: State) -> dict[str, Primitive]:
         "left/source": Points(p_left, classes, dot, T_WORLD_LEFT, name="source"),
         "right/target": Points(p_target, "target", radius, T_WORLD_RIGHT),
         "right/source": Points(nearer(right.flow.p_moving), "source", dot, T_WORLD_RIGHT),
-        **clumps("left", left.flow.p_moving, dot, T_WORLD_LEFT),
-        **clumps("right", right.flow.p_moving, dot, T_WORLD_RIGHT),
+        **clumps("left", left.flow.p_moving, dot, T_world_side=T_WORLD_LEFT),
+        **clumps("right", right.flow.p_moving, dot, T_world_side=T_WORLD_RIGHT),
     }
 
 

@@ -81,12 +81,14 @@ def setup(params: Input) -> Ring:
     target = spread("ring", params.points)
     larger = grown(target, LARGER)
     ours = Measures(chamfer, earth_movers, chamfer)
-    of = [in_units(with_outlier(target, far), target, larger, ours) for far in FAR.tolist()]
+    of = [
+        in_units(with_outlier(target, far), target, larger, measures=ours) for far in FAR.tolist()
+    ]
     return Ring(target, larger, np.array(of).T)
 
 
 def in_units(
-    p: np.ndarray, p_target: np.ndarray, p_larger: np.ndarray, measures: Measures
+    p: np.ndarray, p_target: np.ndarray, p_larger: np.ndarray, *, measures: Measures
 ) -> np.ndarray:
     """Return Hausdorff, Chamfer and earth mover's of a cloud over those of the larger target."""
     pairs = [
@@ -100,7 +102,7 @@ def run(params: Input, ring: Ring, measures: Measures) -> Iterator[Held]:
     """Yield the cloud with its dot ever farther away."""
     for far in FAR.tolist():
         p = with_outlier(ring.p_target, far)
-        yield Held(far, p, in_units(p, ring.p_target, ring.p_larger, measures))
+        yield Held(far, p, in_units(p, ring.p_target, ring.p_larger, measures=measures))
 
 
 def draw(look: Look[Input, Ring, Held]) -> Scene:
@@ -126,7 +128,7 @@ def draw(look: Look[Input, Ring, Held]) -> Scene:
         "caption": caption(state),
     }
     for k, (name, role) in enumerate(zip(NAMES, ROLES, strict=True)):
-        scene |= _bar(k, name, role, float(state.times[k]))
+        scene |= _bar(k, name, role, times=float(state.times[k]))
         scene[f"times/{name}"] = TIMES.whole(FAR, ring.times[k], name, role)
         if np.isfinite(state.times[k]):
             scene[f"mark/{name}"] = TIMES.mark(
@@ -136,7 +138,7 @@ def draw(look: Look[Input, Ring, Held]) -> Scene:
     return scene
 
 
-def _bar(k: int, name: str, role: Role, times: float) -> dict[str, Primitive]:
+def _bar(k: int, name: str, role: Role, *, times: float) -> dict[str, Primitive]:
     """Return one bar: its height is the number, its foot has the name."""
     foot = FOOT + np.array([k * APART, 0.0, 0.0])
     tall = TALL * times if np.isfinite(times) else 0.0

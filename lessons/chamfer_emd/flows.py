@@ -28,13 +28,15 @@ def run(params: Input, clouds: Clouds, measures: Measures) -> Iterator[Step]:
     """
     p_source, p_target = clouds.p_source, clouds.p_target
     limits = {"longest_step": params.longest_step, "max_steps": params.steps}
-    lefts = flow(p_source, p_target, *distances.left(params.lowers, measures), **limits)
-    rights = flow(p_source, p_target, *distances.right(measures), **limits)
+    left_distance, left_gradient = distances.left(params.lowers, measures)
+    right_distance, right_gradient = distances.right(measures)
+    lefts = flow(p_source, p_target, left_distance, gradient=left_gradient, **limits)
+    rights = flow(p_source, p_target, right_distance, gradient=right_gradient, **limits)
     known = numbers_of_yardsticks(clouds, params, measures)
     left = right = before = None
     for step, (now_left, now_right) in enumerate(side_by_side(lefts, rights)):
-        left = measured(now_left, left, p_target, params, measures)
-        right = measured(now_right, right, p_target, params, measures)
+        left = measured(now_left, left, p_target, params=params, measures=measures)
+        right = measured(now_right, right, p_target, params=params, measures=measures)
         yield Step(
             step=step,
             left=left,

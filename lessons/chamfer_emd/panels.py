@@ -22,7 +22,7 @@ def nearer(p: np.ndarray, share: np.ndarray | float = 1.0) -> np.ndarray:
 
 
 def titled(
-    side: str, title: str, numbers: tuple[str, ...], T_world_side: np.ndarray
+    side: str, title: str, numbers: tuple[str, ...], *, T_world_side: np.ndarray
 ) -> dict[str, Primitive]:
     """Return what stands over a panel: its rule, and below it what is said of it, one line each."""
     lines: list[tuple[str, Role]] = [(title, "neutral"), *((text, "source") for text in numbers)]
@@ -40,7 +40,7 @@ def disc(count: int) -> float:
 
 
 def clouds_in(
-    side: str, p: np.ndarray, p_target: np.ndarray, T_world_side: np.ndarray
+    side: str, p: np.ndarray, p_target: np.ndarray, *, T_world_side: np.ndarray
 ) -> dict[str, Primitive]:
     """Return a cloud over the ring in a panel; the legend names those of the left one."""
     radius = disc(len(p_target))
@@ -74,7 +74,9 @@ def shared_places(p: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
     return first, counts
 
 
-def clumps(side: str, p: np.ndarray, dot: float, T_world_side: np.ndarray) -> dict[str, Primitive]:
+def clumps(
+    side: str, p: np.ndarray, dot: float, *, T_world_side: np.ndarray
+) -> dict[str, Primitive]:
     """Return a disc behind source points that share a place: its area is theirs, rounded up to 2,
     4, 8, ... points.
     """

@@ -65,7 +65,7 @@ def spread(shape: Shape, count: int) -> Cloud:
     return shape_at(shape, (np.arange(count) + 0.5) / count, count)
 
 
-def bunched(shape: Shape, count: int, share: float, width: float = 0.04) -> Cloud:
+def bunched(shape: Shape, count: int, share: float, *, width: float = 0.04) -> Cloud:
     """Return `count` points of a shape of which a share is crowded into the first `width` of it,
     the rest even.
 
@@ -142,7 +142,7 @@ def doubled(p: Cloud, share: float) -> Float[np.ndarray, "k 3"]:
     return np.concatenate([p, p[again]])
 
 
-def blob(count: int, radius: float, flat: bool, rng: np.random.Generator) -> Cloud:
+def blob(count: int, radius: float, flat: bool, *, rng: np.random.Generator) -> Cloud:
     """Return points spread at random over a disc, or a ball, left of and a little above the
     origin.
     """

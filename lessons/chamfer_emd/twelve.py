@@ -124,7 +124,9 @@ def draw(look: Look[Input, Twelve, Held]) -> Scene:
     scene: Scene = {
         **_ring("left", state, target),
         **_ring("right", state, target),
-        "right/pairs": _lines(state.p[matching.i_a], target[matching.i_b], "right", "one each"),
+        "right/pairs": _lines(
+            state.p[matching.i_a], target[matching.i_b], "right", name="one each"
+        ),
         **_titled("right", "one for each", metres(state.earth_movers)),
         "chamfer/whole": BOTH.whole(heaps, of_chamfer * look.subject.chamfer, "Chamfer", "source"),
         "chamfer/mark": BOTH.mark(
@@ -143,10 +145,10 @@ def draw(look: Look[Input, Twelve, Held]) -> Scene:
         "caption": caption(look.params, state),
     }
     if look.params.shuffled:
-        by_row = _lines(state.p, target, "left", "the same row")
+        by_row = _lines(state.p, target, "left", name="the same row")
         return scene | {"left/rows": by_row, **_titled("left", "row by row", squared(state.by_row))}
     return scene | {
-        "left/to target": _lines(state.p, target[near.a_to_b], "left", "nearest of a dot"),
+        "left/to target": _lines(state.p, target[near.a_to_b], "left", name="nearest of a dot"),
         "left/to source": Segments(
             between(target, state.p[near.b_to_a]), "other", 3.0, name="nearest of a place"
         ),
@@ -172,7 +174,7 @@ def _ring(side: str, state: Held, target: np.ndarray) -> dict[str, Primitive]:
     return scene
 
 
-def _lines(p: np.ndarray, q: np.ndarray, side: str, name: str) -> Segments:
+def _lines(p: np.ndarray, q: np.ndarray, side: str, *, name: str) -> Segments:
     return Segments(between(p, q), "correspondence", 3.0, T_WORLD[side], name=name)
 
 

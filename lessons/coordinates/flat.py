@@ -145,8 +145,8 @@ def seen(state: State, view: Seen) -> dict[str, Primitive]:
     else:
         scene["object"] = Points(thing.p, "target", 0.008, name=thing.name)
         corners = thing.p[:: max(1, len(thing.p) // 12)]
-    scene["perspective"] = _picture(thing, view, "source", "by the eye")
-    scene["parallel"] = _picture(thing, None, "truth", "by parallel rays")
+    scene["perspective"] = _picture(thing, view, "source", name="by the eye")
+    scene["parallel"] = _picture(thing, None, "truth", name="by parallel rays")
     v = view.eye - corners
     reach = np.minimum(1.0, RAY / np.linalg.norm(v, axis=1, keepdims=True))
     scene["rays"] = Segments(
@@ -165,7 +165,7 @@ def seen(state: State, view: Seen) -> dict[str, Primitive]:
     return scene
 
 
-def _picture(thing: Thing, view: Seen | None, role: Role, name: str) -> Primitive:
+def _picture(thing: Thing, view: Seen | None, role: Role, *, name: str) -> Primitive:
     """Return the picture of an object on the plane y = 0: through the eye where there is one, else
     by parallel rays.
     """

@@ -63,7 +63,11 @@ def run(
         steps = scatter(growing(params.samples, 6), params.even, rng)
     elif params.stage == "radar":
         steps = measure(
-            RANGE, np.radians(params.bearing_noise), RANGE_SIGMA, growing(params.samples, 6), rng
+            RANGE,
+            np.radians(params.bearing_noise),
+            RANGE_SIGMA,
+            counts=growing(params.samples, 6),
+            rng=rng,
         )
     elif params.stage == "globe":
         subject = places_of(params)
@@ -74,10 +78,12 @@ def run(
         beside = HEIGHT * np.tan(np.radians(params.miss))
         start = np.array([0.0, beside, HEIGHT])
         v = np.array([SPEED, 0.0, 0.0])
-        steps = follow(start, v, moments(beside / SPEED), spherical_from_cartesian)
+        steps = follow(
+            start, v, moments(beside / SPEED), spherical_from_cartesian=spherical_from_cartesian
+        )
     elif params.stage == "projective":
         angles = [angle for angle in TURNS if angle > params.angle_between] + [params.angle_between]
-        steps = turn_parallel(np.radians(angles), TILTS, 1.0, STOPS, meet)
+        steps = turn_parallel(np.radians(angles), TILTS, 1.0, stops=STOPS, meet=meet)
     else:
         subject = thing_of(params)
         steps = step_back(

@@ -55,6 +55,7 @@ def follow(
     p_start: Float[np.ndarray, "3"],
     v: Float[np.ndarray, "3"],
     times: Float[np.ndarray, " n"],
+    *,
     spherical_from_cartesian: Spherical,
 ) -> Iterator[Followed]:
     """Yield where a mount at the origin has to look, and how fast its axes have to turn, at each

@@ -84,6 +84,7 @@ def turn_parallel(
     angles: Iterable[float],
     tilts: Iterable[float],
     gap: float,
+    *,
     stops: Float[np.ndarray, "4"],
     meet: Meet,
 ) -> Iterator[Met]:

@@ -205,6 +205,7 @@ def measure(
     distance: float,
     sigma: float,
     sigma_range: float,
+    *,
     counts: Iterable[int],
     rng: np.random.Generator,
 ) -> Iterator[Ranged]:

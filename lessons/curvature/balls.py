@@ -78,7 +78,7 @@ def run(params: Input, subject: Balls, functions: Functions) -> Iterator[Held]:
             (*held.gaps, float(np.degrees(functions.defects(p, faces)[v]))),
             (*held.areas, float(mixed_areas(p, faces)[v])),
             (*held.K, float(K[v])),
-            (*held.errors, error_of(surface, np.ones(len(p), dtype=bool), "gaussian", K)),
+            (*held.errors, error_of(surface, np.ones(len(p), dtype=bool), "gaussian", estimate=K)),
         )
         yield held
 

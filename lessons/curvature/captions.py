@@ -92,7 +92,7 @@ def _gaussian(state: State) -> Caption:
     true = state.true("gaussian")
     if state.on_border:
         return say(
-            NOWHERE.format("K") + _error(state, "K") + _colors(state, mesh.K, K_SCALE, "m⁻²")
+            NOWHERE.format("K") + _error(state, "K") + _colors(state, mesh.K, K_SCALE, unit="m⁻²")
         )
     if state.params.mistake == "defect taken for K":
         text = f"Without the division by the area, K at vertex {v:,} would be {brief(mesh.K[v])}"
@@ -101,7 +101,7 @@ def _gaussian(state: State) -> Caption:
             tone="wrong",
         )
     text = f"Here K, the defect over the area, is {brief(mesh.K[v])} m⁻²"
-    return say(text + _truth(true, "m⁻²") + _colors(state, mesh.K, K_SCALE, "m⁻²"))
+    return say(text + _truth(true, "m⁻²") + _colors(state, mesh.K, K_SCALE, unit="m⁻²"))
 
 
 def _normal(state: State) -> Caption:
@@ -133,7 +133,7 @@ def _mean(state: State) -> Caption:
             text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), tone="wrong"
         )
     text = f"H is half the normal's length, positive where it points outward: {brief(H)} m⁻¹"
-    return say(text + _truth(true, "m⁻¹") + _colors(state, mesh.H, H_SCALE, "m⁻¹"))
+    return say(text + _truth(true, "m⁻¹") + _colors(state, mesh.H, H_SCALE, unit="m⁻¹"))
 
 
 def _principal(state: State) -> Caption:
@@ -250,7 +250,7 @@ def _error(state: State, name: str) -> str:
     return f" Relative error (RMS over {which}): {percent(state.errors[name])}."
 
 
-def _colors(state: State, values: np.ndarray, fixed: float, unit: str) -> str:
+def _colors(state: State, values: np.ndarray, fixed: float, *, unit: str) -> str:
     """Return how far the colours of an own mesh reach."""
     if state.subject.truth is not None:
         return ""

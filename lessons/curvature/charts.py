@@ -21,9 +21,9 @@ def beside(state: State) -> dict[str, Primitive]:
     stage = state.stage
     if stage != "finer":
         if state.subject.truth is not None or stage in ("gaussian", "quadric"):
-            scene |= _against(state, "K", "gaussian", state.now.K, 0)
+            scene |= _against(state, "K", "gaussian", estimate=state.now.K, which=0)
         if state.subject.truth is not None or stage in ("mean", "quadric"):
-            scene |= _against(state, "H", "mean", state.now.H, 1)
+            scene |= _against(state, "H", "mean", estimate=state.now.H, which=1)
     if stage == "total":
         scene |= _sum(state)
     if stage == "finer":
@@ -47,7 +47,7 @@ def _errors(state: State) -> dict[str, Primitive]:
 
 
 def _against(
-    state: State, letter: str, name: str, estimate: np.ndarray, which: int
+    state: State, letter: str, name: str, *, estimate: np.ndarray, which: int
 ) -> dict[str, Primitive]:
     """Return the estimates of some vertices in the order of their truth; without a truth a
     histogram.
@@ -122,7 +122,7 @@ def vertex_table(state: State) -> Table:
     v = state.now.vertex
     rows: list[tuple[str, str, str]] = []
 
-    def add(name: str, values: np.ndarray, unit: str, true: str | None = None) -> None:
+    def add(name: str, values: np.ndarray, unit: str, *, true: str | None = None) -> None:
         if len(values):
             known = "" if true is None else _number(state.true(true))
             rows.append((f"{name} ({unit})", _number(float(values[v])), known))
@@ -130,7 +130,7 @@ def vertex_table(state: State) -> Table:
     rows.append(("sum of angles (°)", f"{np.degrees(mesh.angles.sum()):.2f}", ""))
     add("angle defect", np.degrees(mesh.defects), "°")
     add("mixed area A", mesh.areas, "m²")
-    add("K = defect / A", mesh.K, "m⁻²", "gaussian")
+    add("K = defect / A", mesh.K, "m⁻²", true="gaussian")
     if len(mesh.normals_2H):
         length = np.linalg.norm(mesh.normals_2H, axis=1)
         rows.append(
@@ -140,13 +140,13 @@ def vertex_table(state: State) -> Table:
                 _number(2 * abs(state.true("mean"))),
             )
         )
-    add("H", mesh.H, "m⁻¹", "mean")
-    add("k₁", mesh.k1, "m⁻¹", "k1")
-    add("k₂", mesh.k2, "m⁻¹", "k2")
+    add("H", mesh.H, "m⁻¹", true="mean")
+    add("k₁", mesh.k1, "m⁻¹", true="k1")
+    add("k₂", mesh.k2, "m⁻¹", true="k2")
     if mesh.quadrics is not None:
         K, H = mesh.quadrics.curvatures()
-        add("K by fit", K, "m⁻²", "gaussian")
-        add("H by fit", H, "m⁻¹", "mean")
+        add("K by fit", K, "m⁻²", true="gaussian")
+        add("H by fit", H, "m⁻¹", true="mean")
         rows.append(
             (
                 "surface variation of the rings",

@@ -62,17 +62,19 @@ def draw(state: State) -> Scene:
 def _color(state: State) -> Color:
     mesh, stage = state.now, state.stage
     if stage == "gaussian":
-        return _signed(state, mesh.K, K_SCALE, "Gaussian curvature K", "m⁻²")
+        return _signed(state, mesh.K, K_SCALE, title="Gaussian curvature K", unit="m⁻²")
     if stage == "mean":
-        return _signed(state, mesh.H, H_SCALE, "mean curvature H", "m⁻¹")
+        return _signed(state, mesh.H, H_SCALE, title="mean curvature H", unit="m⁻¹")
     if stage in ("defect", "total"):
-        return _signed(state, mesh.defects, DEFECT_SCALE, "angle defect", "rad")
+        return _signed(state, mesh.defects, DEFECT_SCALE, title="angle defect", unit="rad")
     if stage == "quadric" and mesh.quadrics is not None:
-        return _signed(state, mesh.quadrics.curvatures()[0], K_SCALE, "K by quadric fit", "m⁻²")
+        return _signed(
+            state, mesh.quadrics.curvatures()[0], K_SCALE, title="K by quadric fit", unit="m⁻²"
+        )
     return "neutral"
 
 
-def _signed(state: State, values: np.ndarray, fixed: float, title: str, unit: str) -> Field:
+def _signed(state: State, values: np.ndarray, fixed: float, *, title: str, unit: str) -> Field:
     scale = reach(state, values, fixed)
     title = (
         title

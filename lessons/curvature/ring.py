@@ -81,7 +81,7 @@ def flattened(mesh: Measured, share: float = 1.0) -> dict[str, Primitive]:
         return np.cos(turn)[:, None] * right + np.sin(turn)[:, None] * up
 
     def at(
-        along: np.ndarray, turn: np.ndarray, radius: np.ndarray | float, height: float = 0.0
+        along: np.ndarray, turn: np.ndarray, radius: np.ndarray | float, *, height: float = 0.0
     ) -> np.ndarray:
         return (
             centre
@@ -106,7 +106,7 @@ def flattened(mesh: Measured, share: float = 1.0) -> dict[str, Primitive]:
     word = "gap" if defect > 0 else "overlap"
     return scene | {
         "gap": Segments(
-            segments(at(flat(gap), gap, 0.8 * lengths.min(), 0.02)),
+            segments(at(flat(gap), gap, 0.8 * lengths.min(), height=0.02)),
             "other",
             5,
             name="angle defect",

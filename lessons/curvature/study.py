@@ -40,7 +40,7 @@ def study_of(
             ("H_fit", "mean", made.H_fit),
         )
         for name, letter, estimate in estimates:
-            errors[name].append(error_of(made.surface, made.inside, letter, estimate))
+            errors[name].append(error_of(made.surface, made.inside, letter, estimate=estimate))
     counts = np.array([len(made.surface.p) for made in meshes], dtype=float)
     return Study(
         counts=counts,
@@ -78,7 +78,7 @@ def _made(surface: Surface) -> _Made:
     )
 
 
-def error_of(surface: Surface, inside: np.ndarray, name: Letter, estimate: np.ndarray) -> float:
+def error_of(surface: Surface, inside: np.ndarray, name: Letter, *, estimate: np.ndarray) -> float:
     """Return the relative L2 error of K or H over the vertices inside the border.
 
     Where the truth is 0 everywhere, the error is related to what the larger principal curvature

@@ -64,11 +64,14 @@ def new_errors(subject: Subject, mesh: Measured) -> dict[str, float]:
     if surface is None:
         return {}
     if mesh.stage == "gaussian":
-        return {"K": error_of(surface, inside, "gaussian", mesh.K)}
+        return {"K": error_of(surface, inside, "gaussian", estimate=mesh.K)}
     if mesh.stage == "mean":
-        return {"H": error_of(surface, inside, "mean", mesh.H)}
+        return {"H": error_of(surface, inside, "mean", estimate=mesh.H)}
     if mesh.stage == "quadric" and mesh.quadrics is not None:
         K, H = mesh.quadrics.curvatures()
-        both = error_of(surface, inside, "gaussian", K), error_of(surface, inside, "mean", H)
+        both = (
+            error_of(surface, inside, "gaussian", estimate=K),
+            error_of(surface, inside, "mean", estimate=H),
+        )
         return {"K by fit": both[0], "H by fit": both[1]}
     return {}

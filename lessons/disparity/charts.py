@@ -43,7 +43,9 @@ def _pictures(look: MapLook) -> dict[str, Primitive]:
         pair = pictures.pair
         window = look.params.window
         frame = PALETTE["highlight"]
-        image = side_by_side(pair.left, pair.right, pictures.pixel, round(d), window, frame=frame)
+        image = side_by_side(
+            pair.left, pair.right, pictures.pixel, d=round(d), window=window, frame=frame
+        )
         shown["windows"] = Picture(
             image, f"Left window, and right window {round(d)} px further left"
         )

@@ -117,7 +117,9 @@ def steps(
     left = pictures.left
     right = pictures.right
     most = pictures.max_disparity
-    return match(left, right, most, params.window, penalties, compare, choose)
+    return match(
+        left, right, most, window=params.window, penalties=penalties, compare=compare, choose=choose
+    )
 
 
 def states_of(
@@ -137,7 +139,11 @@ def states_of(
         state, stage=None, disparity=disparity, wrong=wrong, error=error, unknown=unknown
     )
     for depths in reconstruct(
-        disparity + camera.doffs, pictures.f, camera.baseline, shown, depth_of
+        disparity + camera.doffs,
+        pictures.f,
+        camera.baseline,
+        disparity_error=shown,
+        depth_of=depth_of,
     ):
         yield replace(
             last, depth=depths.depth, uncertainty=depths.uncertainty, disparity_error=shown
@@ -165,7 +171,9 @@ def _of_matching(pictures: Pictures, step: Matching, depth_of: DepthOf) -> State
         direction=step.direction,
         jumps=step.jumps,
         lowest=_mean_lowest(step) if comparing else np.nan,
-        energy=np.nan if step.summed is None else energy(step.summed, step.disparity, *step.jumps),
+        energy=np.nan
+        if step.summed is None
+        else energy(step.summed, step.disparity, step.jumps[0], P2=step.jumps[1]),
         wrong=wrong,
         error=error,
         unknown=unknown,

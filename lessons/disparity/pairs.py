@@ -206,7 +206,7 @@ def _own(params: Input) -> StereoPair:
     if known:
         f = params.own_focal_length
         baseline = params.own_baseline
-    pair = read_pair(params.left, params.right, f, baseline, params.doffs)
+    pair = read_pair(params.left, params.right, f, baseline=baseline, doffs=params.doffs)
     if not known:
         pair = replace(pair, camera=replace(pair.camera, f=float(pair.left.shape[1])))
     return shrunk(pair, params.shrink)

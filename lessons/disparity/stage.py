@@ -33,9 +33,9 @@ def standing(look: MapLook) -> dict[str, Primitive]:
     pictures = look.subject
     top = float(pictures.max_disparity)
     field = Field(look.now.disparity.astype(np.float32), 0.0, top, "Disparity", "px")
-    left = _upright(pictures.pair.left, "left picture", LEFT, ABOVE)
-    right = _upright(pictures.pair.right, "right picture", RIGHT, ABOVE)
-    below = _upright(field, "Disparity of the left picture (grey: unknown)", LEFT, BELOW)
+    left = _upright(pictures.pair.left, "left picture", LEFT, y=ABOVE)
+    right = _upright(pictures.pair.right, "right picture", RIGHT, y=ABOVE)
+    below = _upright(field, "Disparity of the left picture (grey: unknown)", LEFT, y=BELOW)
     return {
         "left/picture": left,
         "right/picture": right,
@@ -49,7 +49,7 @@ def standing(look: MapLook) -> dict[str, Primitive]:
     }
 
 
-def _upright(image: np.ndarray | Field, title: str, x: float, y: float) -> Picture:
+def _upright(image: np.ndarray | Field, title: str, x: float, *, y: float) -> Picture:
     h, w = (image.values if isinstance(image, Field) else image).shape[:2]
     return Picture(image, title, min(LARGEST[0], LARGEST[1] * w / h), _pose(x, y))
 
@@ -82,18 +82,23 @@ def _row(look: MapLook, left: Picture, right: Picture) -> dict[str, Primitive]:
         "row/sought": Segments(
             sought[None], "other", 5.0, name="tried so far" if comparing else ""
         ),
-        "left/window": _frame(look, left, u, v, "highlight"),
+        "left/window": _frame(look, left, u, v=v, color="highlight"),
     }
     at = tried if comparing else chosen(look)
     if math.isfinite(at):
         shown["right/window"] = _frame(
-            look, right, u - at, v, "source", "compared with" if comparing else "chosen partner"
+            look,
+            right,
+            u - at,
+            v=v,
+            color="source",
+            name="compared with" if comparing else "chosen partner",
         )
     truth = pictures.pair.disparity
     if truth is not None and look.params.mistake != "pictures exchanged" and _seen(pictures):
         lower = ROWS_OFF if look.params.mistake == "rows off by 2 px" else 0
         shown["right/truth"] = _frame(
-            look, right, u - float(truth[v, u]), v + lower, "truth", "true partner"
+            look, right, u - float(truth[v, u]), v=v + lower, color="truth", name="true partner"
         )
     return shown
 
@@ -105,7 +110,7 @@ def _seen(pictures: Pictures) -> bool:
 
 
 def _frame(
-    look: MapLook, picture: Picture, u: float, v: float, color: Role, name: str = ""
+    look: MapLook, picture: Picture, u: float, *, v: float, color: Role, name: str = ""
 ) -> Segments:
     half = max(look.params.window / 2, LEAST_FRAME)
     middle = np.array([u, v])

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from lessons.distances.draw import draw
-from lessons.distances.presets import PRESETS, QUESTIONS, VIEW
+from lessons.distances.presets import PRESETS, VIEW
+from lessons.distances.questions import QUESTIONS
 from lessons.distances.slots import Functions, Mahalanobis, Shortest
 from lessons.distances.stages import STAGES
 from lessons.distances.state import Params, State

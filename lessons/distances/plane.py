@@ -161,7 +161,7 @@ def whiten(params: Params, functions: Functions) -> Steps:
     p = rng.multivariate_normal([0, 0], covariance_of(params), params.points)
     p = np.concatenate([p, params.away * SECOND + SPREAD * rng.normal(size=(params.outliers, 2))])
     scatter = None
-    for scatter in rounded(params, p, rng, functions.mahalanobis):
+    for scatter in rounded(params, p, rng, mahalanobis=functions.mahalanobis):
         yield None, scatter
     assert scatter is not None
     radii = [
@@ -175,7 +175,7 @@ def whiten(params: Params, functions: Functions) -> Steps:
 
 @traced
 def rounded(
-    params: Params, p: np.ndarray, rng: np.random.Generator, mahalanobis: Mahalanobis
+    params: Params, p: np.ndarray, rng: np.random.Generator, *, mahalanobis: Mahalanobis
 ) -> Iterator[Scatter]:
     """Yield the steps that turn Mahalanobis' distance into Euclid's."""
     try:

@@ -39,13 +39,14 @@ def grid(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
         for front in steps:
             d = front.d
             yield subject, front
-        path = _path(subject, *ways_in_square(params.grid, params.wall, 8), d)
+        edges, lengths = ways_in_square(params.grid, params.wall, 8)
+        path = _path(subject, edges, lengths, d=d)
     else:
         edges, lengths = ways_in_square(params.grid, params.wall, int(params.neighbours))
-        d = distances_by(functions, edges, lengths, len(subject.p), subject.source)
+        d = distances_by(functions, edges, lengths, count=len(subject.p), source=subject.source)
         for front in spread(edges, lengths, d):
             yield subject, front
-        path = _path(subject, edges, lengths, d)
+        path = _path(subject, edges, lengths, d=d)
     distances = _found(subject, d, path)
     if params.neighbours == "march":
         distances = replace(distances, eight=_by_eight(params, subject))
@@ -83,8 +84,8 @@ def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now
         nodes, edges, lengths = geodesics.with_points_on_edges(
             subject.p, subject.faces, params.extra
         )
-        d = distances_by(functions, edges, lengths, len(nodes), subject.source)
-        for front in spread(edges, lengths, d, len(subject.p)):
+        d = distances_by(functions, edges, lengths, count=len(nodes), source=subject.source)
+        for front in spread(edges, lengths, d, shown=len(subject.p)):
             yield subject, front
         distances = _found(subject, d[: len(subject.p)], np.empty(0, int))
         goal = (
@@ -104,14 +105,16 @@ def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now
 def roll(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
     """Yield distances along a graph of neighbours, beside those on the unrolled sheet."""
     subject = subject_of(params)
-    d = distances_by(functions, subject.edges, subject.lengths, len(subject.p), subject.source)
+    d = distances_by(
+        functions, subject.edges, subject.lengths, count=len(subject.p), source=subject.source
+    )
     for front in spread(subject.edges, subject.lengths, d):
         yield subject, front
-    yield subject, _found(subject, d, _path(subject, subject.edges, subject.lengths, d))
+    yield subject, _found(subject, d, _path(subject, subject.edges, subject.lengths, d=d))
 
 
 def distances_by(
-    functions: Functions, edges: np.ndarray, lengths: np.ndarray, count: int, source: int
+    functions: Functions, edges: np.ndarray, lengths: np.ndarray, *, count: int, source: int
 ) -> np.ndarray:
     """Return the distances by the function in the slot.
 
@@ -126,7 +129,7 @@ def distances_by(
 
 @traced
 def spread(
-    edges: np.ndarray, lengths: np.ndarray, d: np.ndarray, shown: int | None = None
+    edges: np.ndarray, lengths: np.ndarray, d: np.ndarray, *, shown: int | None = None
 ) -> Iterator[Front]:
     """Yield how Dijkstra's front grows: nodes are accepted in the order of their distance, their
     neighbours are on trial.
@@ -158,7 +161,7 @@ def _marched(params: Params, subject: Subject, update: Update) -> Iterator[Front
         yield Front(d=front.d.ravel(), accepted=front.accepted.ravel(), reach=front.reach)
 
 
-def _path(subject: Subject, edges: np.ndarray, lengths: np.ndarray, d: np.ndarray) -> np.ndarray:
+def _path(subject: Subject, edges: np.ndarray, lengths: np.ndarray, *, d: np.ndarray) -> np.ndarray:
     return subject.p[geodesics.shortest_path(edges, lengths, d, goal=subject.goal)]
 
 

@@ -46,7 +46,7 @@ def subject_of(params: Params) -> Subject:
             else _own_mesh(params.mesh, stamp(params.mesh), params.up)
         )
     elif params.cloud is not None:
-        made = _own_cloud(params.cloud, stamp(params.cloud), params.up, params.k)
+        made = _own_cloud(params.cloud, stamp(params.cloud), params.up, k=params.k)
     else:
         made = _roll(params.points, params.k, params.seed)
     source = made.source if params.source < 0 else params.source % len(made.p)
@@ -187,7 +187,7 @@ def _mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
 @functools.lru_cache(maxsize=4)
 def _own_mesh(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
     p, faces, _ = read_surface(path, MOST_OWN)
-    return _mesh(path.name, own_points(p, path, up, OWN_SIZE), faces)
+    return _mesh(path.name, own_points(p, path, up, width=OWN_SIZE), faces)
 
 
 @functools.lru_cache(maxsize=8)
@@ -203,9 +203,9 @@ def _roll(count: int, k: int, seed: int) -> Subject:
 
 
 @functools.lru_cache(maxsize=4)
-def _own_cloud(path: Path, _stamp: tuple[int, int], up: Upward, k: int) -> Subject:
+def _own_cloud(path: Path, _stamp: tuple[int, int], up: Upward, *, k: int) -> Subject:
     p = some_points(read_cloud(path, fewest=31), MOST_CLOUD, np.random.default_rng(0))
-    p = own_points(p, path, up, OWN_SIZE)
+    p = own_points(p, path, up, width=OWN_SIZE)
     made = _neighbours(path.name, p, k)
     source = int(np.argmin(p[:, 0]))
     return replace(made, source=source, goal=int(np.argmax(np.linalg.norm(p - p[source], axis=1))))

@@ -80,7 +80,7 @@ def _sides(state: State) -> tuple[Side, Side]:
     H = _rectifying(state)
     sides = []
     for k, word in enumerate(("first", "second")):
-        picture = _hung(views, k, None if H is None else H[k].tobytes(), word)
+        picture = _hung(views, k, None if H is None else H[k].tobytes(), word=word)
         to_shown = np.diag([1 / views.strides[k], 1 / views.strides[k], 1.0]) if H is None else H[k]
         sides.append(Side(picture, views.sizes[k], to_shown))
     return sides[0], sides[1]
@@ -96,7 +96,11 @@ def _rectifying(state: State) -> tuple[np.ndarray, np.ndarray] | None:
     views = state.views
     try:
         return fitted(
-            rectification.H_first, rectification.H_second, *views.sizes, size=_shown_size(views, 0)
+            rectification.H_first,
+            rectification.H_second,
+            size_first=views.sizes[0],
+            size_second=views.sizes[1],
+            size=_shown_size(views, 0),
         )
     except ValueError:
         return None
@@ -108,7 +112,7 @@ def _shown_size(views, k: int) -> tuple[int, int]:
 
 
 @functools.lru_cache(maxsize=32)
-def _hung(views, k: int, H: bytes | None, word: str) -> Picture:
+def _hung(views, k: int, H: bytes | None, *, word: str) -> Picture:
     """Return a picture where it stands, warped where H is given: the same object at every step that
     shows the same.
     """
@@ -220,7 +224,7 @@ def _space(state: State) -> dict[str, Primitive]:
     if isinstance(result, Followed):
         assert state.T_true is not None
         return scene | _followed(
-            result, camera_center(state.T_true) / views.model, T_world_first, views.model
+            result, camera_center(state.T_true) / views.model, T_world_first, model=views.model
         )
     shown = evenly(len(views.matches), SHOWN_POINTS)
     p_true = None if views.p_first is None else views.p_first[shown] / views.model
@@ -249,7 +253,7 @@ def _drawn(T: np.ndarray | None, model: float) -> np.ndarray | None:
 
 
 def _followed(
-    ray: Followed, p_center: np.ndarray, T_world_first: np.ndarray, model: float
+    ray: Followed, p_center: np.ndarray, T_world_first: np.ndarray, *, model: float
 ) -> dict[str, Primitive]:
     """Return the ray of the followed pixel with marks, the rays that the second camera sees them
     by, and the plane.
@@ -293,7 +297,7 @@ def _ellipsoids(state: State, p: np.ndarray, T_world_first: np.ndarray) -> Segme
     Ps = camera_matrix(state.K_first, np.eye(4)), camera_matrix(state.K_second, T)
     rings = sphere_rings(np.zeros(3), 2.0, 24)
     parts = [np.empty((0, 2, 3))]
-    for place, covariance in zip(p, triangulation_covariances(*Ps, p, sigma), strict=True):
+    for place, covariance in zip(p, triangulation_covariances(*Ps, p, sigma=sigma), strict=True):
         if np.isfinite(covariance).all() and np.trace(covariance) < REACH:
             values, axes = np.linalg.eigh(covariance)
             parts.append(place + rings @ (axes * np.sqrt(np.maximum(values, 0.0))).T)

@@ -84,7 +84,7 @@ def run(
         if params.normalise
         else np.stack([np.eye(3)] * 2)
     )
-    linear = solve_linear(uv_first, uv_second, *scales)
+    linear = solve_linear(uv_first, uv_second, scales[0], T_second=scales[1])
     if not (params.normalise and params.rank_two):
         F = linear.F_rank_two if params.rank_two else linear.F
         eight_point = lambda *_: F  # noqa: E731

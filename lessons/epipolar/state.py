@@ -179,7 +179,7 @@ class State:
             camera_matrix(self.views.K_first, np.eye(4)),
             camera_matrix(self.views.K_second, sure(self.T_true)),
         )
-        return np.sqrt(triangulation_covariances(*Ps, p_first, self.params.noise)[:, 2, 2])
+        return np.sqrt(triangulation_covariances(*Ps, p_first, sigma=self.params.noise)[:, 2, 2])
 
     def to_lines(self, matches: np.ndarray) -> float:
         """Return the root mean square distance of matches to the lines of F, pixels; NaN where

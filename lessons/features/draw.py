@@ -123,8 +123,8 @@ def _matches(step: Scanned, T: np.ndarray) -> dict[str, Primitive]:
     pairs = step.pairs[some]
     ends = apply(T, step.scans.p_source[pairs[:, 0]]), step.scans.p_target[pairs[:, 1]]
     if step.right is None and step.inliers is not None:
-        return lines_between(*ends, step.inliers[some], thin="disagrees")
-    return lines_between(*ends, None if step.right is None else step.right[some])
+        return lines_between(*ends, right=step.inliers[some], thin="disagrees")
+    return lines_between(*ends, right=None if step.right is None else step.right[some])
 
 
 def _errors(step: Scanned) -> dict[str, Primitive]:

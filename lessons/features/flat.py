@@ -31,7 +31,7 @@ def pictured(step: Pictured) -> dict[str, Primitive]:
         if step.pairs is not None and len(step.pairs):
             a = shown[0].places(step.uv_first[step.pairs[:, 0]].astype(float), 2 * NEARER)
             b = shown[1].places(step.uv_second[step.pairs[:, 1]].astype(float), 2 * NEARER)
-            scene |= lines_between(a, b, step.right, step.known)
+            scene |= lines_between(a, b, right=step.right, known=step.known)
     if step.sifts and step.phase in ("corners", "patch"):
         for k, (name, picture, sift) in enumerate(zip(NAMES, shown, step.sifts, strict=True)):
             ends = picture.places(
@@ -96,7 +96,7 @@ def outlined(state: State, step: Outlined) -> dict[str, Primitive]:
     if step.costs is not None:
         scene["costs"] = Picture(Field(step.costs, 0.0, 1.0, "cost"), "Cost of every pair")
     if step.pairs is not None:
-        scene |= lines_between(first[step.pairs[:, 0]], second[step.pairs[:, 1]], step.right)
+        scene |= lines_between(first[step.pairs[:, 0]], second[step.pairs[:, 1]], right=step.right)
     return scene
 
 
@@ -120,6 +120,7 @@ def _bins(state: State, step: Outlined) -> np.ndarray:
 def lines_between(
     a: np.ndarray,
     b: np.ndarray,
+    *,
     right: np.ndarray | None,
     known: np.ndarray | None = None,
     thin: str = "wrong match",

@@ -84,7 +84,7 @@ def picture_steps(
     )
     yield replace(step, phase="patch", **judged(step, pairs[[best]]))
     yield replace(step, phase="nearest", **judged(step, pairs))
-    pairs = chosen(params, nearest, a, b, mutual_matches)
+    pairs = chosen(params, nearest, a, b=b, mutual_matches=mutual_matches)
     yield replace(step, phase="kept", **judged(step, pairs))
 
 

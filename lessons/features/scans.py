@@ -59,8 +59,10 @@ def scan_steps(
     step = replace(step, phase="pairs", angles=angles, around=around)
     yield step
 
-    f_source = compared(params, fpfh(p, n_source, params.radius, pair_angles))
-    f_target = compared(params, fpfh(scans.p_target, n_target, params.radius, pair_angles))
+    f_source = compared(params, fpfh(p, n_source, params.radius, pair_angles=pair_angles))
+    f_target = compared(
+        params, fpfh(scans.p_target, n_target, params.radius, pair_angles=pair_angles)
+    )
     alike = np.linalg.norm(f_target - f_source[k], axis=1)
     partner = int(alike.argmin())
     if scans.T_truth is not None:
@@ -76,7 +78,7 @@ def scan_steps(
     step = replace(step, asked=asked)
     pairs = np.column_stack([asked, offered[nearest.index]])
     yield replace(step, phase="nearest", pairs=pairs, right=scans.right(pairs, RIGHT))
-    rows = chosen(params, nearest, a, b, mutual_matches)
+    rows = chosen(params, nearest, a, b=b, mutual_matches=mutual_matches)
     pairs = np.column_stack([asked[rows[:, 0]], offered[rows[:, 1]]])
     step = replace(step, phase="kept", pairs=pairs, right=scans.right(pairs, RIGHT))
     yield step
@@ -95,7 +97,7 @@ def _moved(params: Params, step: Scanned) -> Iterator[Scanned]:
         rows,
         RIGID,
         uniform_samples(len(rows), RIGID.sample_size, np.random.default_rng(params.seed)),
-        Judge(rows, RIGID, INLIER),
+        judge=Judge(rows, RIGID, INLIER),
         confidence=CONFIDENCE,
         max_iterations=MOST_SAMPLES,
     )
@@ -155,6 +157,7 @@ def chosen(
     params: Params,
     nearest: NearestDescriptors,
     a: np.ndarray,
+    *,
     b: np.ndarray,
     mutual_matches: Matcher,
 ) -> np.ndarray:
@@ -166,7 +169,7 @@ def chosen(
     """
     mutual = mutual_matches(a, b, params.ratio) if params.keep == "both" else None
     try:
-        return filtered(nearest, params.keep, params.ratio, mutual)
+        return filtered(nearest, params.keep, params.ratio, mutual=mutual)
     except ValueError as error:
         raise InputError(str(error)) from error
 
@@ -220,7 +223,7 @@ def _made(params: Params) -> Scans:
     T_truth = motion(exp_so3(np.radians(params.turn) * AXIS), SHIFT)
     rng = np.random.default_rng(params.seed)
     made = pair(
-        params.shape, params.points, T_truth, rng, overlap=params.overlap, noise=params.noise
+        params.shape, params.points, T_truth, rng=rng, overlap=params.overlap, noise=params.noise
     )
     p, q = made.p_source, made.p_target
     return Scans(p_target=q, p_source=p, fine_target=q, fine_source=p, T_truth=T_truth)

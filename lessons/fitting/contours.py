@@ -64,7 +64,7 @@ def _contours(p: bytes) -> Segments:
     )
     levels = costs.max() / FACTOR ** np.arange(0.5, LINES)
     ends = level_lines(
-        np.sqrt(costs), np.sqrt(levels), np.full(2, -REACH), x[1] - x[0]
+        np.sqrt(costs), np.sqrt(levels), np.full(2, -REACH), spacing=x[1] - x[0]
     )  # it is straighter
     return Segments(
         at_height(ends, -HEIGHT), "neutral", 1.0, opacity=0.7, name="equally good centres"

@@ -48,7 +48,7 @@ def line_points(rng: np.random.Generator, slope: float, count: int) -> Float[np.
 
 
 def errors(
-    rng: np.random.Generator, shape: tuple[int, ...], sigma: float, kind: Errors = "independent"
+    rng: np.random.Generator, shape: tuple[int, ...], sigma: float, *, kind: Errors = "independent"
 ) -> np.ndarray:
     """Return normal errors of one standard deviation in every coordinate.
 
@@ -70,6 +70,7 @@ def outlying_plane(
     rng: np.random.Generator,
     count: int,
     sigma: float,
+    *,
     outliers: float,
     reach: float,
     both_sides: bool,

@@ -75,7 +75,7 @@ class Spread:
 
 
 def repeat_fit(
-    shape: RoundShape, end: Descent, p_anew: Float[np.ndarray, "k n d"], counts: Sequence[int]
+    shape: RoundShape, end: Descent, p_anew: Float[np.ndarray, "k n d"], *, counts: Sequence[int]
 ) -> Iterator[Spread]:
     """Yield what the covariance at the end of a descent says, and then fits to points measured
     anew, ever more of them.
@@ -139,6 +139,7 @@ def try_starts(
     p: Float[np.ndarray, "n 2"],
     starts: Float[np.ndarray, "k 3"],
     best: Float[np.ndarray, "3"],
+    *,
     damping: float,
     shown: Sequence[int],
 ) -> Iterator[Basin]:
@@ -156,7 +157,7 @@ def try_starts(
     """
     descents = None
     for descents in descend_many(
-        lambda c: CIRCLE.linearise(c, p), np.add, starts, damping, iterations=shown[-1]
+        lambda c: CIRCLE.linearise(c, p), np.add, starts, damping=damping, iterations=shown[-1]
     ):
         if descents.iteration in shown:
             yield Basin(starts, best, descents)

@@ -15,7 +15,8 @@ from lessons.fitting.draw import draw
 from lessons.fitting.exercises.circle_linearised import circle_linearised
 from lessons.fitting.exercises.damped_step import damped_step
 from lessons.fitting.exercises.huber_weights import huber_weights
-from lessons.fitting.presets import PRESETS, QUESTIONS, VIEW
+from lessons.fitting.presets import PRESETS, VIEW
+from lessons.fitting.questions import QUESTIONS
 from lessons.fitting.stages import Linearised, Weights, basin, lines, rivals, trust, walk
 from lessons.fitting.state import Now, Params, State
 from lessons.fitting.subjects import subject_of
@@ -41,8 +42,8 @@ def run(
             params,
             subject,
             rng,
-            circle_linearised if kind.name == "circle" else kind.linearise,
-            damped_step,
+            linearise=circle_linearised if kind.name == "circle" else kind.linearise,
+            step=damped_step,
         )
     elif params.stage == "basin":
         moments = basin(params, subject)

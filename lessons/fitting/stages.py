@@ -67,6 +67,7 @@ def walk(
     params: Params,
     subject: Subject,
     rng: np.random.Generator,
+    *,
     linearise: Linearised,
     step: DampedStep,
 ) -> Iterator[Now]:
@@ -80,8 +81,8 @@ def walk(
         lambda unknown: linearise(unknown, p),
         kind.retract,
         start_of(params),
-        step,
-        damping_of(params),
+        damped_step=step,
+        damping=damping_of(params),
         iterations=ITERATIONS,
         tolerance=RESTS[params.rest],
     )
@@ -101,8 +102,10 @@ def walk(
     if subject.p_true is None:
         p_anew = p[rng.integers(0, len(p), (REPEATS[-1], len(p)))]
     else:
-        p_anew = subject.p_true + errors(rng, (REPEATS[-1], *p.shape), params.noise, params.errors)
-    yield from repeat_fit(kind, last, p_anew, REPEATS)
+        p_anew = subject.p_true + errors(
+            rng, (REPEATS[-1], *p.shape), params.noise, kind=params.errors
+        )
+    yield from repeat_fit(kind, last, p_anew, counts=REPEATS)
 
 
 def basin(params: Params, subject: Subject) -> Iterator[Basin]:
@@ -112,7 +115,9 @@ def basin(params: Params, subject: Subject) -> Iterator[Basin]:
         [*np.meshgrid(side, side), np.full((GRID, GRID), params.start_radius)], axis=-1
     ).reshape(-1, 3)
     assert subject.best is not None
-    return try_starts(subject.p, starts, subject.best, damping_of(params), SHOWN_ITERATIONS)
+    return try_starts(
+        subject.p, starts, subject.best, damping=damping_of(params), shown=SHOWN_ITERATIONS
+    )
 
 
 def rivals(params: Params, subject: Subject, rng: np.random.Generator) -> Iterator[Rivals]:

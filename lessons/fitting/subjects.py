@@ -64,8 +64,8 @@ def subject_of(params: Params, rng: np.random.Generator) -> Subject:
             rng,
             params.points,
             params.noise,
-            params.outliers,
-            params.reach,
+            outliers=params.outliers,
+            reach=params.reach,
             both_sides=params.side == "both",
         )
         return Subject(p=p, truth=np.array([0.0, 0.0, 1.0, 0.0]))
@@ -75,7 +75,7 @@ def subject_of(params: Params, rng: np.random.Generator) -> Subject:
         rng,
         p_true.shape,
         params.noise,
-        params.errors if params.stage == "descent" else "independent",
+        kind=params.errors if params.stage == "descent" else "independent",
     )
     return _round(p, ROUND_SHAPES[shape], truth=TRUE[shape], p_true=p_true)
 

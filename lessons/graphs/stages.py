@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import scipy
@@ -37,19 +37,19 @@ class Functions:
 def graph_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[Grown]:
     """Yield the graph as it grows: neighbour by neighbour, or as a list of edges is read."""
     sizes = range(1, params.k + 1) if subject.edges is None else range(5)
-    return grow(params, subject, functions, sizes)
+    return grow(params, subject, functions, sizes=sizes)
 
 
 @traced
 def grow(
-    params: Params, subject: Subject, functions: Functions, sizes: Iterable[int]
+    params: Params, subject: Subject, functions: Functions, *, sizes: Iterable[int]
 ) -> Iterator[Grown]:
     """Yield graphs of so many neighbours per point, or of so many quarters of the given edges."""
     for size in sizes:
         if subject.edges is None:
             rows, _ = graphs.neighbours(subject.p, size)
             directed = graphs.directed_graph(rows)
-            adjacency = joined(params, subject, directed, functions, size)
+            adjacency = joined(params, subject, directed, functions=functions, k=size)
         else:
             part = len(subject.edges) * size // 4
             adjacency = directed = graphs.graph_of(
@@ -65,7 +65,7 @@ def grow(
 
 
 def joined(
-    params: Params, subject: Subject, directed: Sparse, functions: Functions, k: int
+    params: Params, subject: Subject, directed: Sparse, *, functions: Functions, k: int
 ) -> Sparse:
     """Return the graph of who names whom, joined as the params say; the union by the function in
     the slot.
@@ -89,11 +89,11 @@ def adjacency_of(params: Params, subject: Subject, functions: Functions) -> Spar
             " graph"
         )
     rows, _ = graphs.neighbours(subject.p, params.k)
-    return joined(params, subject, graphs.directed_graph(rows), functions, params.k)
+    return joined(params, subject, graphs.directed_graph(rows), functions=functions, k=params.k)
 
 
 def laplacian_of(
-    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+    params: Params, subject: Subject, adjacency: Sparse, *, functions: Functions
 ) -> Laplacian:
     """Return the chosen Laplacian; that of a graph by the function in the slot.
 
@@ -120,12 +120,12 @@ def laplacian_of(
 
 
 def matrix_steps(
-    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+    params: Params, subject: Subject, adjacency: Sparse, *, functions: Functions
 ) -> Iterator[Now]:
     """Yield A, D, L = D - A, L applied to a function of the nodes, and L with its nodes in a better
     order.
     """
-    laplacian = laplacian_of(params, subject, adjacency, functions)
+    laplacian = laplacian_of(params, subject, adjacency, functions=functions)
     return matrices(laplacian, len(subject.p))
 
 
@@ -148,18 +148,18 @@ def matrices(laplacian: Laplacian, count: int) -> Iterator[Matrix]:
 
 
 def spectrum_steps(
-    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+    params: Params, subject: Subject, adjacency: Sparse, *, functions: Functions
 ) -> Iterator[Now]:
     """Yield eigenvectors one by one, slow ones first."""
-    laplacian = laplacian_of(params, subject, adjacency, functions)
+    laplacian = laplacian_of(params, subject, adjacency, functions=functions)
     pair = spectra(params, subject, adjacency)
     return modes(
-        laplacian, min(params.modes, len(subject.p)), of_unit_sphere(params, subject), pair
+        laplacian, min(params.modes, len(subject.p)), of_unit_sphere(params, subject), pair=pair
     )
 
 
 @traced
-def modes(laplacian: Laplacian, count: int, relative: bool, pair: tuple) -> Iterator[Mode]:
+def modes(laplacian: Laplacian, count: int, relative: bool, *, pair: tuple) -> Iterator[Mode]:
     """Yield the slowest eigenvectors of a Laplacian, its eigenvalues as ratios where only these
     mean something.
     """
@@ -191,26 +191,26 @@ def spectra(
 
 
 def cut_steps(
-    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+    params: Params, subject: Subject, adjacency: Sparse, *, functions: Functions
 ) -> Iterator[Now]:
     """Yield the Fiedler vector and the cuts that it gives."""
-    laplacian = laplacian_of(params, subject, adjacency, functions)
+    laplacian = laplacian_of(params, subject, adjacency, functions=functions)
     return spectral_cut(adjacency, laplacian)
 
 
 def heat_steps(
-    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+    params: Params, subject: Subject, adjacency: Sparse, *, functions: Functions
 ) -> Iterator[Now]:
     """Yield heat that flows from the node that is looked at."""
-    laplacian = laplacian_of(params, subject, adjacency, functions)
+    laplacian = laplacian_of(params, subject, adjacency, functions=functions)
     u = np.zeros(len(subject.p))
     u[subject.front if params.vertex < 0 else params.vertex % len(u)] = 1.0
     dt = params.step_size / max(laplacian.largest(), 1e-12)
-    return heat(u, laplacian, dt, params.steps)
+    return heat(u, laplacian, dt, steps=params.steps)
 
 
 def smooth_steps(
-    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+    params: Params, subject: Subject, adjacency: Sparse, *, functions: Functions
 ) -> Iterator[Now]:
     """Yield the nodes' places, roughened by noise, as they are smoothed."""
     if (graphs.degrees(adjacency) <= 0).any():
@@ -232,7 +232,7 @@ def edge_length(subject: Subject, adjacency: Sparse) -> float:
 
 
 def network_steps(
-    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+    params: Params, subject: Subject, adjacency: Sparse, *, functions: Functions
 ) -> Iterator[Now]:
     """Yield a network's features: two labels that spread, or of a pair of graphs what messages make
     of equal nodes.
@@ -249,7 +249,7 @@ def network_steps(
 
 
 def training_steps(
-    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+    params: Params, subject: Subject, adjacency: Sparse, *, functions: Functions
 ) -> Iterator[Now]:
     """Yield a network of one layer or more while it learns two labels, every tenth iteration."""
     dense = _dense(adjacency)
@@ -297,14 +297,24 @@ def states(params: Params, subject: Subject, functions: Functions) -> Iterator[S
         steps = graph_steps(params, subject, functions)
     else:
         whole = adjacency_of(params, subject, functions)
-        steps = STAGES[params.stage](params, subject, whole, functions)
+        steps = STAGES[params.stage](params, subject, whole, functions=functions)
     for step in steps:
         first = step if first is None else first
         graph = as_a(Grown, step).adjacency if whole is None else whole
         yield State(params=params, subject=subject, adjacency=graph, now=step, first=first)
 
 
-STAGES: dict[str, Callable[[Params, Subject, Sparse, Functions], Iterator[Now]]] = {
+class Stage(Protocol):
+    """Yields what a stage shows of a graph whose adjacency is known."""
+
+    def __call__(
+        self, params: Params, subject: Subject, adjacency: Sparse, *, functions: Functions
+    ) -> Iterator[Now]:
+        """Yield it step by step."""
+        ...
+
+
+STAGES: dict[str, Stage] = {
     "matrix": matrix_steps,
     "spectrum": spectrum_steps,
     "cut": cut_steps,

@@ -160,7 +160,7 @@ def _own(path: Path, _stamp: tuple[int, int], *, kind: str, up: Upward, seed: in
             raise InputError(f"{path.name}: no triangle with three different corners")
     else:
         p = some_points(read_cloud(path, fewest=21), MOST_CLOUD, np.random.default_rng(seed))
-    p = own_points(p, path, up, OWN_SIZE)
+    p = own_points(p, path, up, width=OWN_SIZE)
     return _mesh(path.name, p, faces) if len(faces) else _cloud(path.name, p)
 
 

@@ -46,7 +46,7 @@ def _of_match(look: SpaceLook, state: icp.State) -> Caption:
         words = "Match {n}: of {points} the closest {kept} are kept."
         values = {"points": counted(n, "match", "matches"), "kept": kept}
     if state.stop is not None:
-        return _stopped(look, state, words, {"n": state.iteration, **values})
+        return _stopped(look, state, words, values={"n": state.iteration, **values})
     words += _at_start(look, state) if state.iteration == 1 else ""
     return say(words, n=state.iteration, **values, place="match")
 
@@ -55,7 +55,7 @@ def _of_fit(look: SpaceLook, state: icp.State) -> Caption:
     scans = look.subject
     by = degrees(turned(look, state))
     if state.stop is not None:
-        return _stopped(look, state, "", {})
+        return _stopped(look, state, "", values={})
     if not scans.known:
         words = "Fit {n} turns orange by {turned}: RMSE {rmse}."
         return say(words, n=state.iteration, turned=by, rmse=metres(state.rmse), place="fit")
@@ -64,7 +64,7 @@ def _of_fit(look: SpaceLook, state: icp.State) -> Caption:
     return say(words, n=state.iteration, turned=by, off=off, place="fit")
 
 
-def _stopped(look: SpaceLook, state: icp.State, words: str, values: dict) -> Caption:
+def _stopped(look: SpaceLook, state: icp.State, words: str, *, values: dict) -> Caption:
     scans = look.subject
     assert state.stop is not None
     reason = f"{words} Stop after {{rounds}}: {state.stop.message}.".strip()

@@ -82,7 +82,7 @@ def _of_the_run(params: Input, scans: Scans, state: icp.State) -> dict[str, Prim
     error = scans.error(T_target_source) if scans.known else None
     return {
         "source": Points(p, _source_color(scans), radius, T_world_source, name="source"),
-        **_arrow("source", scans, T_target_source, "source", error),
+        **_arrow("source", scans, T_target_source, color="source", error=error),
         **_matches(scans, state, T_world_source),
         **_curves(params, scans, state),
         **_landscape(params, scans, state),
@@ -100,14 +100,14 @@ def _from_another_start(look: SpaceLook, attempt: Try) -> dict[str, Primitive]:
     name = f"end from {attempt.start_angle:.0f}° away"
     return {
         "source": Points(p, color, radius, T_world_try, name=name),
-        **_arrow("source", scans, T_target_source, "source", attempt.error),
+        **_arrow("source", scans, T_target_source, color="source", error=attempt.error),
         **_dial(scans, tries_of(look)),
         **_basin(look),
     }
 
 
 def _arrow(
-    path: str, scans: Scans, T_target_source: np.ndarray, color: Role, error: MotionError | None
+    path: str, scans: Scans, T_target_source: np.ndarray, *, color: Role, error: MotionError | None
 ) -> dict[str, Primitive]:
     """Return an arrow fixed to the source, along the picture's x axis at the truth, with its
     error.
@@ -206,18 +206,20 @@ def _basin(look: SpaceLook) -> dict[str, Primitive]:
     angles = np.array([attempt.start_angle for attempt in tries], float)
     marks = (tries[-1].start_angle,)
 
-    def curve(chart: Chart, values: list[float], name: str, color: Role) -> Curve:
+    def curve(chart: Chart, values: list[float], name: str, *, color: Role) -> Curve:
         return chart.curve(angles, np.array(values), name, color, marks=marks)
 
     turns, distances = (
         [getattr(attempt.error, name) for attempt in tries] for name in ("rotation", "displacement")
     )
     return {
-        "basin": curve(BASIN_TURNS, turns, "final error", "truth"),
+        "basin": curve(BASIN_TURNS, turns, "final error", color="truth"),
         "basin rmse": curve(
-            BASIN_METRES, [attempt.rmse for attempt in tries], "final RMSE", "source"
+            BASIN_METRES, [attempt.rmse for attempt in tries], "final RMSE", color="source"
         ),
-        "basin distance": curve(BASIN_METRES, distances, "RMS distance from the truth", "truth"),
+        "basin distance": curve(
+            BASIN_METRES, distances, "RMS distance from the truth", color="truth"
+        ),
     }
 
 

@@ -135,7 +135,7 @@ def draw(look: Look[Input, Outlines, State]) -> Scene:
     color = Classes.marking(good, "truth", "right partner", others=("correspondence", "partner"))
     scene: dict[str, Primitive] = {
         "dial": Segments(dial_arc(-180.0, 180.0, DIAL), "neutral", 1.0, opacity=0.35),
-        "turn": Segments(dial_arc(0.0, shown, DIAL, 0.002), "source", 4.0),
+        "turn": Segments(dial_arc(0.0, shown, DIAL, depth=0.002), "source", 4.0),
         "true mark": Segments(upright(tick, 0.003)[None], "truth", 4.0),
         "turn mark": Segments(upright(tick, 0.003)[None], "source", 4.0, T_turn),
         "turn name": Label(

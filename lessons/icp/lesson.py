@@ -45,7 +45,7 @@ def run(
     if isinstance(subject, flat.Outlines):
         yield from flat.run(params, subject)
     else:
-        yield from space.run(params, subject, align, match, step)
+        yield from space.run(params, subject, align, match=match, step=step)
 
 
 def draw(look: Look) -> Scene:

@@ -134,7 +134,7 @@ def sampled(params: Input) -> Scans:
     """
     rng = np.random.default_rng(params.seed)
     wrong = {"overlap": params.overlap, "noise": params.noise, "outliers": params.outliers}
-    scans = pair(params.shape, params.points, np.eye(4), rng, **wrong)
+    scans = pair(params.shape, params.points, np.eye(4), rng=rng, **wrong)
     p, q = scans.p_target, scans.p_source
     tree = _tree_when_asked(p)
     return Scans(
@@ -163,7 +163,7 @@ def _driven(params: Input) -> Scans:
     p_target, p_source = lidar_pair(T_truth, rng, rings=RINGS, columns=COLUMNS, noise=noise)
     p_target, p_source = _thinned(p_target, p_source, params)
     upright = frame(p_target, WIDTH, up="z", far=FAR)
-    return replace(_framed(p_target, p_source, upright, _spread(params)), T_truth=T_truth)
+    return replace(_framed(p_target, p_source, upright, spread=_spread(params)), T_truth=T_truth)
 
 
 def _check(params: Input) -> None:
@@ -187,11 +187,15 @@ def _own(params: Input) -> Scans:
         raise InputError(f"{target.name}: all its points lie at one place")
     p_target, p_source = _thinned(p_target, p_source, params)
     how = frame(p_target, WIDTH, up=params.up, far=FAR)
-    made = _framed(p_target, p_source, how, _spread(params))
-    return replace(made, T_truth=_known_pose(params.truth, target, source, METRES[params.unit]))
+    made = _framed(p_target, p_source, how, spread=_spread(params))
+    return replace(
+        made, T_truth=_known_pose(params.truth, target, source, metres=METRES[params.unit])
+    )
 
 
-def _known_pose(truth: Path | None, target: Path, source: Path, metres: float) -> np.ndarray | None:
+def _known_pose(
+    truth: Path | None, target: Path, source: Path, *, metres: float
+) -> np.ndarray | None:
     if truth is None:
         return None
     T = read_pose(truth, target, source).copy()
@@ -215,7 +219,7 @@ def _thinned(
     return p_target, some_points(p_source, params.own_points, rng)
 
 
-def _framed(p_target: np.ndarray, p_source: np.ndarray, how: Frame, spread: bool) -> Scans:
+def _framed(p_target: np.ndarray, p_source: np.ndarray, how: Frame, *, spread: bool) -> Scans:
     """Bring scans of any size and place into the picture, WIDTH wide and upright about the
     middle.
     """

@@ -52,6 +52,7 @@ def run(
     params: Input,
     scans: Scans,
     align: Slot | None = None,
+    *,
     match: Slot | None = None,
     step: Slot | None = None,
 ) -> Iterator[icp.State | Try]:
@@ -60,7 +61,9 @@ def run(
     There are no tries where a shape can be moved onto itself, nor where a function is given in
     place of ours (None).
     """
-    yield from _steps(params, scans, scans.p_source, scans.T_start, align, match, step)
+    yield from _steps(
+        params, scans, scans.p_source, T_start=scans.T_start, align=align, match=match, step=step
+    )
     sliding = params.target is None and params.shape in SLIDING
     if scans.known and not sliding and (align, match, step) == (None, None, None):
         yield from (tried(params, angle) for angle in ANGLES)
@@ -70,6 +73,7 @@ def _steps(
     params: Input,
     scans: Scans,
     p_source: np.ndarray,
+    *,
     T_start: np.ndarray,
     align: Slot | None = None,
     match: Slot | None = None,
@@ -123,7 +127,7 @@ def tried(params: Input, angle: float) -> Try:
     turn = scans.about_centre(np.array([0.0, 0.0, -np.radians(angle)]))
     with untraced():
         few = placed[every(len(placed), TRIED)]
-        *_, end = _steps(params, scans, few, motion(np.eye(3), shift) @ turn)
+        *_, end = _steps(params, scans, few, T_start=motion(np.eye(3), shift) @ turn)
     T = end.T_target_source
     error = motion_error(T, np.eye(4), placed[~scans.is_outlier])
     return Try(start_angle=angle, T_target_truth=T, error=error, rmse=end.rmse)

@@ -54,7 +54,7 @@ def rays_of(angle: float, pixels: int) -> tuple[Float[np.ndarray, "w 2"], Float[
 @functools.lru_cache(maxsize=64)
 def photograph(angle: float, pixels: int) -> Float[np.ndarray, "w 3"]:
     """Return what a camera sees of the discs before a white background, 0 to 1; read-only."""
-    q, spacing = samples_on(*rays_of(angle, pixels), REACH, _FINE)
+    q, spacing = samples_on(*rays_of(angle, pixels), REACH, count=_FINE)
     density, color = medium(q)
     image = seen(ray_weights(density, spacing), color)
     image.flags.writeable = False

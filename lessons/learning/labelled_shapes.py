@@ -18,7 +18,7 @@ STRETCH = (0.8, 1.2)
 
 
 def labelled_clouds(
-    of: Int[np.ndarray, " b"], count: int, turned: Turned, rng: np.random.Generator
+    of: Int[np.ndarray, " b"], count: int, turned: Turned, *, rng: np.random.Generator
 ) -> Float[np.ndarray, "b {count} 3"]:
     """Return a cloud for each class that is asked for: stretched a little along its axes, turned,
     with noise, metres.

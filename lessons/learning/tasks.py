@@ -136,7 +136,7 @@ def _mesh(
     ball = surfaces.sphere(VERTICES)
     name = "the rabbit" if params.scan is None else params.scan.name
     given, truth, p_true, faces_true = _surface(
-        params.scan, params.scan and stamp(params.scan), params.up, params.seed
+        params.scan, params.scan and stamp(params.scan), params.up, seed=params.seed
     )
     given = given + params.noise * rng.normal(size=given.shape)
     target = Target(ball.faces, given, p_true, faces_true, name)
@@ -160,7 +160,7 @@ def _mesh(
 
 @functools.lru_cache(maxsize=4)
 def _surface(
-    scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int
+    scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, *, seed: int
 ) -> tuple[np.ndarray, ...]:
     """Return points of the surface to be fitted, more of them, and its mesh: cached, as most knobs
     leave them alone.
@@ -169,7 +169,7 @@ def _surface(
     if scan is None:
         return rabbit(GIVEN, rng), rabbit(TRUE, rng), *rabbit_mesh()
     p, faces = read_welded(scan, MOST_OWN, "fitted")
-    p = own_points(p, scan, up, OWN_SIZE)
+    p = own_points(p, scan, up, width=OWN_SIZE)
     given, truth = (points_on_faces(p, faces, rng.random((count, 3))) for count in (GIVEN, TRUE))
     return given, truth, p, faces
 
@@ -179,15 +179,15 @@ def _classify(
 ) -> Iterator[tuple[Clouds, Now]]:
     def draw(count: int) -> tuple[np.ndarray, np.ndarray]:
         of = rng.integers(len(NAMES), size=count)
-        return labelled_clouds(of, CLOUD, params.trained, rng), of
+        return labelled_clouds(of, CLOUD, params.trained, rng=rng), of
 
     chance = np.random.default_rng(1000 + params.seed)
     of = np.tile(np.arange(len(NAMES)), TESTS)
-    plain = labelled_clouds(of, CLOUD, params.trained, chance)
+    plain = labelled_clouds(of, CLOUD, params.trained, rng=chance)
     changed = (
         plain
         if params.turned == params.trained
-        else labelled_clouds(of, CLOUD, params.turned, chance)
+        else labelled_clouds(of, CLOUD, params.turned, rng=chance)
     )
     changed = changed.copy()
     if any(params.stray):
@@ -217,7 +217,12 @@ def _field(
         rng=rng,
         ray_weights=functions.ray_weights,
     ):
-        yield _looks(params, functions, rebuilt.field, (p, d, colors), angles, new), rebuilt
+        yield (
+            _looks(
+                params, functions, rebuilt.field, trained=(p, d, colors), angles=angles, new=new
+            ),
+            rebuilt,
+        )
 
 
 def photographs(angles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -235,6 +240,7 @@ def _looks(
     params: Params,
     functions: Functions,
     field: RadianceField,
+    *,
     trained: tuple,
     angles: np.ndarray,
     new: np.ndarray,
@@ -244,7 +250,7 @@ def _looks(
     own = field.along(trained[0], trained[1], functions.ray_weights)[1]
     k = params.picked % PIXELS
     weights = field.along(p[[k]], d[[k]], functions.ray_weights)[0][0]
-    q, spacing = samples_on(p[[k]], d[[k]], flatland.REACH, SAMPLES)
+    q, spacing = samples_on(p[[k]], d[[k]], flatland.REACH, count=SAMPLES)
     true_weights = functions.ray_weights(flatland.medium(q)[0], spacing)[0]
     nodes = np.linspace(-1, 1, CELLS)
     full = flatland.medium(np.stack(np.meshgrid(nodes, nodes, indexing="ij"), axis=-1))[0] > 0

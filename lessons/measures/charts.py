@@ -30,9 +30,13 @@ def beside(state: State) -> dict[str, Primitive]:
     if isinstance(result, Cells):
         return _running(state, result.volumes[-1], result.areas[-1]) | _cells(state, result)
     if isinstance(result, Throws):
-        return _by_chance(result.estimates, subject.volume, "Volume", f"{subject.unit}³", "throws")
+        return _by_chance(
+            result.estimates, subject.volume, "Volume", unit=f"{subject.unit}³", drawn="throws"
+        )
     if isinstance(result, Lines):
-        return _by_chance(result.estimates, subject.area, "Area", f"{subject.unit}²", "lines")
+        return _by_chance(
+            result.estimates, subject.area, "Area", unit=f"{subject.unit}²", drawn="lines"
+        )
     return _samples(state, result) if isinstance(result, Sampled) else _balls(result)
 
 
@@ -100,7 +104,7 @@ def _log(error: np.ndarray) -> np.ndarray:
 
 
 def _by_chance(
-    estimates: Estimates, true: float, quantity: str, unit: str, drawn: str
+    estimates: Estimates, true: float, quantity: str, *, unit: str, drawn: str
 ) -> dict[str, Primitive]:
     sums = Chart(f"{quantity} by {drawn}", f"log₁₀ {drawn}", unit)
     off_by = Chart(f"Error by {drawn}", f"log₁₀ {drawn}", "log₁₀ error (%)")

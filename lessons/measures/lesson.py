@@ -49,7 +49,7 @@ def run(
     rng = np.random.default_rng(params.seed)
     counts = counts_to(params.throws, params.draw)
     if params.method == "samples":
-        yield from samples(params, subject, rng, points_on_faces)
+        yield from samples(params, subject, rng, points_on_faces=points_on_faces)
         return
     if params.method == "faces":
         origin = np.array(params.origin) / subject.scale

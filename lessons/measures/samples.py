@@ -18,7 +18,7 @@ IN_TRIANGLE = (50, 200, 800, 3200)
 
 
 def samples(
-    params: Params, subject: Subject, rng: np.random.Generator, points_on_faces: OnFaces
+    params: Params, subject: Subject, rng: np.random.Generator, *, points_on_faces: OnFaces
 ) -> Iterator[State]:
     """Yield points in a triangle, then points on the surface."""
     face = np.array([[0, 1, 2]])

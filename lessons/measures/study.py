@@ -44,7 +44,7 @@ def peeked(share: float, counts: tuple[int, ...]) -> tuple[float, float]:
 
 @functools.lru_cache(maxsize=2)
 def _halved(shape: str) -> Study:
-    meshes = [built_in(shape, subdivisions, 4, 4) for subdivisions in range(6)]
+    meshes = [built_in(shape, subdivisions, 4, rings=4) for subdivisions in range(6)]
     area = [abs(surface_area(mesh.p, mesh.faces) / mesh.area - 1) for mesh in meshes]
     volume = [abs(signed_volume(mesh.p, mesh.faces) / mesh.volume - 1) for mesh in meshes]
     counts = np.array([len(mesh.faces) for mesh in meshes], dtype=float)
@@ -55,6 +55,6 @@ def _halved(shape: str) -> Study:
 def _lanterns() -> Study:
     shares = {}
     for name, power in POWERS.items():
-        made = [built_in("lantern", 0, sectors, sectors**power) for sectors in SECTORS]
+        made = [built_in("lantern", 0, sectors, rings=sectors**power) for sectors in SECTORS]
         shares[name] = np.array([surface_area(mesh.p, mesh.faces) / mesh.area for mesh in made])
     return Study(faces=np.array(SECTORS, dtype=float), errors=shares)

@@ -46,12 +46,16 @@ def subject_of(params: Params) -> Subject:
         )
     if params.voxels is not None:
         subject = _voxels(
-            params.voxels, stamp(params.voxels), params.spacing, params.label, params.unit
+            params.voxels,
+            stamp(params.voxels),
+            params.spacing,
+            label=params.label,
+            unit=params.unit,
         )
     elif params.mesh is not None:
-        subject = _own(params.mesh, stamp(params.mesh), params.up, params.unit)
+        subject = _own(params.mesh, stamp(params.mesh), params.up, unit=params.unit)
     else:
-        subject = built_in(params.shape, params.subdivisions, params.sectors, params.rings)
+        subject = built_in(params.shape, params.subdivisions, params.sectors, rings=params.rings)
     if params.method in ("voxels", "chance") and subject.inside is None:
         raise InputError(
             f"{subject.name} is open: it has an area and no volume, and no point is inside it"
@@ -63,7 +67,7 @@ def subject_of(params: Params) -> Subject:
     return subject
 
 
-def built_in(shape: str, subdivisions: int, sectors: int, rings: int) -> Subject:
+def built_in(shape: str, subdivisions: int, sectors: int, *, rings: int) -> Subject:
     """Return a built-in shape."""
     if shape == "rabbit":
         return _rabbit()
@@ -105,7 +109,13 @@ def _rabbit() -> Subject:
 
 
 def _of_mesh(
-    name: str, p: np.ndarray, faces: np.ndarray, unit: str = "m", scale: float = 1.0, note: str = ""
+    name: str,
+    p: np.ndarray,
+    faces: np.ndarray,
+    *,
+    unit: str = "m",
+    scale: float = 1.0,
+    note: str = "",
 ):
     """Return a mesh that is measured against itself: all its faces, as they are."""
     closed = encloses(faces)
@@ -151,7 +161,7 @@ def _spoilt(subject: Subject, params: Params) -> np.ndarray:
 
 
 @functools.lru_cache(maxsize=4)
-def _own(path: Path, _stamp: tuple[int, int], up: Upward, unit: Unit) -> Subject:
+def _own(path: Path, _stamp: tuple[int, int], up: Upward, *, unit: Unit) -> Subject:
     p, faces = read_welded(path, MOST_OWN, "measured")
     axis = upward(p, path, up)
     low, high = box(p)
@@ -161,12 +171,17 @@ def _own(path: Path, _stamp: tuple[int, int], up: Upward, unit: Unit) -> Subject
         if encloses(faces)
         else " It is open or its faces disagree which side is outside: no volume is its own."
     )
-    return _of_mesh(path.name, p, faces, unit, OWN_SIZE / extent(p), note)
+    return _of_mesh(path.name, p, faces, unit=unit, scale=OWN_SIZE / extent(p), note=note)
 
 
 @functools.lru_cache(maxsize=2)
 def _voxels(
-    path: Path, _stamp: tuple[int, int], spacing: tuple[float, float, float], label: int, unit: Unit
+    path: Path,
+    _stamp: tuple[int, int],
+    spacing: tuple[float, float, float],
+    *,
+    label: int,
+    unit: Unit,
 ) -> Subject:
     """Return labelled voxels: their surface for what needs one, the bits themselves for
     counting.
@@ -185,21 +200,23 @@ def _voxels(
     edges = np.array(spacing)
     low = -edges * np.array(bits.shape) / 2
     finest = max(1, -(-max(bits.shape) // FINE))
-    p, faces = marched_surface(*_every(bits, low, edges, finest))
+    p, faces = marched_surface(*_every(bits, low, edges, n=finest))
     grids = tuple(
-        _every(bits, low, edges, every)[1] for every in (8, 4, 2, 1) if min(bits.shape) >= every
+        _every(bits, low, edges, n=every)[1] for every in (8, 4, 2, 1) if min(bits.shape) >= every
     )
 
     def full(grid: Grid) -> np.ndarray:
-        return _every(bits, low, edges, round(float(grid.spacing[0] / edges[0])))[0]
+        return _every(bits, low, edges, n=round(float(grid.spacing[0] / edges[0])))[0]
 
-    subject = _of_mesh(path.name, p, faces, unit, OWN_SIZE / float((edges * bits.shape).max()))
+    subject = _of_mesh(
+        path.name, p, faces, unit=unit, scale=OWN_SIZE / float((edges * bits.shape).max())
+    )
     every = "" if finest == 1 else f" Its picture is made of one voxel in {finest} along each axis."
     return replace(
         subject,
         smooth=True,
         area=(
-            surface_area(*marched_surface(*_every(bits, low, edges, 1)))
+            surface_area(*marched_surface(*_every(bits, low, edges, n=1)))
             if finest > 1
             else subject.area
         ),
@@ -215,7 +232,9 @@ def _used(any_full: np.ndarray) -> np.ndarray:
     return np.arange(indices[0], indices[-1] + 1)
 
 
-def _every(bits: np.ndarray, low: np.ndarray, edges: np.ndarray, n: int) -> tuple[np.ndarray, Grid]:
+def _every(
+    bits: np.ndarray, low: np.ndarray, edges: np.ndarray, *, n: int
+) -> tuple[np.ndarray, Grid]:
     """Return every n-th voxel along each axis, each standing for n x n x n."""
     some = bits[n // 2 :: n, n // 2 :: n, n // 2 :: n]
     return some, Grid(low, n * edges, some.shape)

@@ -50,11 +50,13 @@ def draw(look: Look[Input, Scans, State]) -> Scene:
     if fit.U is not None and fit.V is not None and fit.D is not None:
         reach = REACH * np.sqrt(np.maximum(fit.D, 1e-4))
         middle = scans.p_source.mean(axis=0)
-        scene |= _lines("directions", middle, fit.V * reach, T, fit.D)
+        scene |= _lines("directions", middle, fit.V * reach, T=T, strength=fit.D)
         if fit.stage in ("cross", "in"):  # later they lie on each other
             target_middle = scans.p_target.mean(axis=0)
             T_target = scans.T_world_target
-            scene |= _lines("target directions", target_middle, fit.U * reach, T_target, None)
+            scene |= _lines(
+                "target directions", target_middle, fit.U * reach, T=T_target, strength=None
+            )
     if fit.stage in ("flip", "scale"):
         scene |= _missed(scans, look.now, T)
     return scene | _charts(look) | {"caption": caption(look)}
@@ -89,7 +91,7 @@ def _bands(scans: Scans, T: np.ndarray) -> dict[str, Primitive]:
 
 
 def _lines(
-    path: str, p: np.ndarray, axes: np.ndarray, T: np.ndarray, strength: np.ndarray | None
+    path: str, p: np.ndarray, axes: np.ndarray, *, T: np.ndarray, strength: np.ndarray | None
 ) -> dict[str, Primitive]:
     """Return three lines through a point along the columns of a matrix, each with its strength."""
     ends = between(p - axes.T, p + axes.T)

@@ -92,7 +92,7 @@ def draw(look: Look[Params, Bands, Held]) -> Scene:
     tick = np.array([[0.0, DIAL - MARK], [0.0, DIAL + MARK]])
     return {
         "dial": Segments(dial_arc(-180.0, 180.0, DIAL), "neutral", 1.0, opacity=0.35),
-        "turn": Segments(dial_arc(0.0, shown, DIAL, 0.002), "source", 4.0),
+        "turn": Segments(dial_arc(0.0, shown, DIAL, depth=0.002), "source", 4.0),
         "true mark": Segments(upright(tick, 0.003)[None], "target", 4.0),
         "turn mark": Segments(upright(tick, 0.003)[None], "source", 4.0, T_turn),
         "turn name": Label(

@@ -101,7 +101,7 @@ def built_in(params: Input) -> Scans:
     is_wrong = np.zeros(len(shape), bool)
     if params.wrong:
         together = params.mistakes == "together"
-        p_paired, is_wrong = mispaired(p_target, params.wrong, together, order)
+        p_paired, is_wrong = mispaired(p_target, params.wrong, together, order=order)
     if params.scale != 1.0:
         tried = [(p_whole + sigma * in_target, turned + sigma * in_source) for sigma in SIGMAS]
         scales["there"] = np.array([similarity_scale(p, q) for p, q in tried])
@@ -113,7 +113,7 @@ def built_in(params: Input) -> Scans:
         T_target_source=T,
         T_world_target=beside(p_whole, turned, 0.0 if params.source is None else FAR),
         mirrored=mirrored,
-        off={} if T is None else _offs(p_target, p_source, T, order),
+        off={} if T is None else _offs(p_target, p_source, T, order=order),
         scales=scales,
     )
 
@@ -127,7 +127,7 @@ def _sampler(params: Input) -> Sample:
 
 
 def mispaired(
-    p_target: np.ndarray, wrong: float, together: bool, order: np.ndarray
+    p_target: np.ndarray, wrong: float, together: bool, *, order: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the target with wrong partners, and which of its rows these are.
 
@@ -148,18 +148,21 @@ def mispaired(
 
 
 def _offs(
-    p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray, order: np.ndarray
+    p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray, *, order: np.ndarray
 ) -> dict[str, np.ndarray]:
     """Return how far off the turn is at each of SHARES, degrees, for both kinds of mistakes."""
     kinds = {"shuffled": False, "together": True}
-    return {name: _off(p_target, p_source, T, same, order) for name, same in kinds.items()}
+    return {
+        name: _off(p_target, p_source, T, together=same, order=order)
+        for name, same in kinds.items()
+    }
 
 
 def _off(
-    p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray, together: bool, order: np.ndarray
+    p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray, *, together: bool, order: np.ndarray
 ) -> np.ndarray:
     """Return how far the rigid fit's turn is off at each of SHARES, degrees."""
-    tried = [mispaired(p_target, share, together, order)[0] for share in SHARES]
+    tried = [mispaired(p_target, share, together, order=order)[0] for share in SHARES]
     return np.array([degrees_between(align_rigid(p, p_source), T) for p in tried])
 
 
@@ -172,7 +175,7 @@ def own(params: Input) -> Scans:
     target, source = params.target, params.source
     assert target is not None
     assert source is not None
-    p_target, p_source, T = own_pair(target, source, params.truth, params.up)
+    p_target, p_source, T = own_pair(target, source, params.truth, up=params.up)
     holed = next((file.name for file in (target, source) if lost_rows(file)), None)
     if holed is not None:
         raise InputError(
@@ -203,5 +206,5 @@ def fit(
     p, q = scans.p_target, scans.p_source
     H = (p - p.mean(axis=0)).T @ (q - q.mean(axis=0))
     flip = params.flip if np.linalg.det(H) < 0 else "least"  # only a mirror image has to flip
-    for state in procrustes.procrustes(p, q, scale, flip):
+    for state in procrustes.procrustes(p, q, scale, flip=flip):
         yield State(now=state, back=scale(q, p) if state.stage == "scale" else float("nan"))

@@ -130,16 +130,16 @@ def _legs(look: PinholeLook, T_world_camera: np.ndarray) -> dict[str, Primitive]
     true = apply(look.subject.T_camera_world, look.now.now.p_world[k])
     got = look.now.now.p_camera[k]
     if np.allclose(got, true):
-        return _ways("ways", true, ("z", "x", "y"), "X, Y and Z", T_world_camera)
+        return _ways("ways", true, ("z", "x", "y"), name="X, Y and Z", T=T_world_camera)
     truth: tuple[Role, Role, Role] = ("truth", "truth", "truth")
     wrong: tuple[Role, Role, Role] = ("wrong", "wrong", "wrong")
-    return _ways("ways", true, truth, "the true way", T_world_camera) | _ways(
-        "calculated", got, wrong, "the calculated way", T_world_camera
+    return _ways("ways", true, truth, name="the true way", T=T_world_camera) | _ways(
+        "calculated", got, wrong, name="the calculated way", T=T_world_camera
     )
 
 
 def _ways(
-    path: str, p_camera: np.ndarray, roles: tuple[Role, Role, Role], name: str, T: np.ndarray
+    path: str, p_camera: np.ndarray, roles: tuple[Role, Role, Role], *, name: str, T: np.ndarray
 ) -> dict[str, Primitive]:
     """Lead from the camera to a point along the camera's axes: Z first, then X, then Y."""
     x, y, z = p_camera

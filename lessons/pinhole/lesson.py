@@ -28,7 +28,7 @@ def run(
     camera_center: Center = cameras.camera_center,
 ) -> Iterator[State]:
     """Yield the stages of the street's points through the calculated camera."""
-    model = model_of(params, shot, project, distort, camera_center)
+    model = model_of(params, shot, project, distort=distort, camera_center=camera_center)
     overlaid = overlays(shot, model)
     for state in model(shot.p_world):
         yield compared(shot, state, overlaid(state.stage))

@@ -75,7 +75,7 @@ def compared(shot: Shot, state: pinhole.State, picture: np.ndarray) -> State:
 
 
 def model_of(
-    params: Input, shot: Shot, project: Project, distort: Distort, camera_center: Center
+    params: Input, shot: Shot, project: Project, *, distort: Distort, camera_center: Center
 ) -> Model:
     """Return the calculation with the given functions, changed by the mistake that is asked for."""
     K = shot.K_first if params.forgets_k else shot.K
@@ -136,9 +136,9 @@ def overlays(shot: Shot, model: Model) -> Callable[[Stage], np.ndarray]:
             [item],
             shot.T_camera_world,
             shot.K,
-            w,
-            h,
-            shot.lens,
+            width=w,
+            height=h,
+            distortion=shot.lens,
             to_pixels=lambda p: calculated(np.asarray(p, float).tobytes())[stage].seen(shot.K),
         )
         shown = np.isfinite(drawn.depth)

@@ -116,7 +116,7 @@ def pinhole_of(params: Input, by: float) -> Pinhole:
     if params.aside:
         T_camera_world = motion(np.eye(3), np.array([-params.aside, 0.0, 0.0])) @ T_camera_world
     K_near = intrinsics(params.f, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
-    T_camera_world, K_first = dolly(T_camera_world, K_near, distance, by)
+    T_camera_world, K_first = dolly(T_camera_world, K_near, distance, factor=by)
     K = K_first
     if "cropped" in params.edit:
         K = crop_intrinsics(K, params.cut, CROP_TOP)
@@ -170,7 +170,9 @@ def photograph(params: Input) -> np.ndarray:
     """Return what the true camera sees, after the edit."""
     eye = pinhole_of(params, params.dolly)
     T, K = eye.T_camera_world, eye.K_first
-    picture = render(street_items(), T, K, WIDTH, HEIGHT, eye.lens, background=SKY).colors
+    picture = render(
+        street_items(), T, K, width=WIDTH, height=HEIGHT, distortion=eye.lens, background=SKY
+    ).colors
     if "cropped" in params.edit:
         picture = picture[CROP_TOP:, params.cut :]
     if "half" in params.edit:  # means of blocks of 2 x 2

@@ -81,7 +81,7 @@ def draw(state: State) -> Scene:
     photograph = as_a(Picture, scene["picture"])
     scene |= _pixels(state, photograph)
     if subject.T_true is not None:
-        scene["truth"] = _camera(subject, subject.T_true, "truth", "true camera")
+        scene["truth"] = _camera(subject, subject.T_true, "truth", name="true camera")
     if isinstance(step, Searched):
         scene |= _three(state, step) | _candidates(state, step)
     elif (
@@ -96,7 +96,7 @@ def draw(state: State) -> Scene:
     if isinstance(step, Repeated):
         return scene | _repeated(subject, step)
     if state.T is not None and is_rigid(state.T):
-        scene["estimate"] = _camera(subject, state.T, "source", "estimate")
+        scene["estimate"] = _camera(subject, state.T, "source", name="estimate")
         root = isinstance(step, Searched) and step.phase == "root"
         if not root and subject.T_true is not None and subject.body is not None:
             seen = _as_seen(subject, state.T)
@@ -171,7 +171,7 @@ def _votes(step: object) -> Color:
     )
 
 
-def _camera(subject: Subject, T: np.ndarray, color: Role, name: str) -> Camera:
+def _camera(subject: Subject, T: np.ndarray, color: Role, *, name: str) -> Camera:
     depth = LOOKS[subject.kind].depth
     return Camera(subject.K, 640, 480, subject.frame.shown_camera(T), depth, color=color, name=name)
 
@@ -231,7 +231,7 @@ def _candidates(state: State, search: Searched) -> dict[str, Primitive]:
         if not (np.isfinite(T).all() and is_rigid(T)):
             continue
         if state.T is None or np.abs(T - state.T).max() > 1e-9:
-            scene[f"candidates/{k}"] = _camera(subject, T, "other", "possible camera")
+            scene[f"candidates/{k}"] = _camera(subject, T, "other", name="possible camera")
         if search.phase == "both" and subject.T_true is not None and subject.body is not None:
             seen = _as_seen(subject, T)
             scene[f"candidates/{k}/seen"] = Segments(

@@ -61,7 +61,7 @@ def run(
     p = subject.given.p_world
     xy = subject.xy
     T = None
-    for step in first_pose(params, subject, pose_from_distances, choose_pose):
+    for step in first_pose(params, subject, pose_from_distances, choose_pose=choose_pose):
         T = step.T if step.phase in ("choose", "solved") else None
         yield State(params=params, subject=subject, now=step)
     if params.refine:
@@ -75,6 +75,7 @@ def first_pose(
     params: Params,
     subject: Subject,
     pose_from_distances: PoseFromDistances,
+    *,
     choose_pose: ChoosePose,
 ) -> Iterator[Searched]:
     """Return the steps to a first pose by the method of the params.
@@ -109,7 +110,7 @@ def sampled(params: Params, subject: Subject) -> Iterator[Sampled]:
     rows = np.column_stack([subject.given.p_world, subject.given.uv])
     judge = Judge(rows, model, params.inlier_pixels)
     samples = uniform_samples(len(rows), model.sample_size, np.random.default_rng([params.seed, 3]))
-    for step in ransac(rows, model, samples, judge, max_iterations=MOST_SAMPLES):
+    for step in ransac(rows, model, samples, judge=judge, max_iterations=MOST_SAMPLES):
         if step.iteration == 1 or step.phase in ("best", "refit", "stop"):
             yield step
 

@@ -70,8 +70,8 @@ def _made(params: Params) -> Subject:
         T_near = look_at(np.array(params.camera), AIM)
         body = _street()
         window = WHOLE
-        photograph = _photograph(street_items(), T_near, K, window)
-        p = _mapped(T_near, K, photograph, params.points, rng)
+        photograph = _photograph(street_items(), T_near, K, window=window)
+        p = _mapped(T_near, K, photograph, most=params.points, rng=rng)
     else:
         p, body = _target(params, rng)
         T_near = _stood(params)
@@ -80,9 +80,11 @@ def _made(params: Params) -> Subject:
                 "the camera is too near: part of what it looks at is beside it or behind it"
             )
         window = _window(project(np.vstack([p, body.p]), T_near, K))
-        photograph = _photograph(_lit(body, SHADES[params.target]), T_near, K, window)
+        photograph = _photograph(_lit(body, SHADES[params.target]), T_near, K, window=window)
     origin = 1000.0 * far * FAR_OFF
-    given = seen(p, T_near, K, rng, sigma=params.noise, is_outlier=some_of(len(p), outliers, rng))
+    given = seen(
+        p, T_near, K, rng=rng, sigma=params.noise, is_outlier=some_of(len(p), outliers, rng)
+    )
     T_true = T_near.copy()
     T_true[:3, 3] -= T_near[:3, :3] @ origin
     return Subject(
@@ -133,7 +135,7 @@ def _street() -> Solid:
 
 
 def _mapped(
-    T: np.ndarray, K: np.ndarray, photograph: Image, most: int, rng: np.random.Generator
+    T: np.ndarray, K: np.ndarray, photograph: Image, *, most: int, rng: np.random.Generator
 ) -> np.ndarray:
     """Return points of the street's map that its photograph shows: the same ones as far as the
     camera sees them.
@@ -170,11 +172,13 @@ def _windowed(K: np.ndarray, window: np.ndarray) -> np.ndarray:
 
 
 def _photograph(
-    items: Sequence[Item], T_camera_world: np.ndarray, K: np.ndarray, window: np.ndarray
+    items: Sequence[Item], T_camera_world: np.ndarray, K: np.ndarray, *, window: np.ndarray
 ) -> Image:
     """Return the window of what the camera sees."""
+    width, height = PHOTOGRAPH
+    K_window = _windowed(K, window)
     return render(
-        items, T_camera_world, _windowed(K, window), *PHOTOGRAPH, background=(246, 248, 250)
+        items, T_camera_world, K_window, width=width, height=height, background=(246, 248, 250)
     )
 
 

@@ -26,7 +26,7 @@ def repeated(params: Params, subject: Subject) -> Repeated:
     swapped = None
     n = MARKERS if params.method == "IPPE" else PICTURES
     options = {"sigma": params.noise, "is_outlier": subject.given.is_outlier}
-    uv = np.stack([seen(p, subject.T_true, subject.K, rng, **options).uv for _ in range(n)])
+    uv = np.stack([seen(p, subject.T_true, subject.K, rng=rng, **options).uv for _ in range(n)])
     xy = normalize(uv.reshape(-1, 2), subject.K).reshape(uv.shape)
     of_picture = np.arange(n)
     if params.method == "P3P":

@@ -116,16 +116,16 @@ def _models(look: SearchLook) -> dict[str, Primitive]:
         name = f"{subject.model.name} of the sample"
         scene["trial"] = Segments(outline(subject, tested), "highlight", 2.5, name=name)
         scene |= band(subject, tested, "highlight", reach=subject.limit)
-        return scene | _surface(subject, "trial", tested, "highlight", opacity=0.3)
+        return scene | _surface(subject, "trial", tested, color="highlight", opacity=0.3)
     if state.best is None:
         return scene
     scene |= band(subject, state.best.estimate, "source", reach=subject.limit)
     opacity = 0.35 if over or state.phase == "best" else 0.15
-    return scene | _surface(subject, "best", state.best.estimate, "source", opacity=opacity)
+    return scene | _surface(subject, "best", state.best.estimate, color="source", opacity=opacity)
 
 
 def _surface(
-    subject: Subject, path: str, estimate: np.ndarray, color: Role, *, opacity: float
+    subject: Subject, path: str, estimate: np.ndarray, *, color: Role, opacity: float
 ) -> dict[str, Primitive]:
     if subject.model.name != "plane":
         return {}

@@ -55,7 +55,7 @@ def line_scene(
         [rng.uniform(-1.0, 1.0, outliers), rng.uniform(0.0, 1.0, outliers) ** 0.7 - 0.1]
     )
     truth = np.array([-slope, 1.0, -height]) / np.hypot(slope, 1.0)
-    return _mixed(rng, p_true, clutter, truth, sigma)
+    return _mixed(rng, p_true, clutter, truth=truth, sigma=sigma)
 
 
 def scattered_line_scene(
@@ -83,7 +83,7 @@ def plane_scene(
     truth, up = _table(rng)
     p_true = up(rng.uniform(-1.0, 1.0, (inliers, 2)), np.zeros(inliers))
     clutter = up(_clutter_places(rng, outliers), 1.2 * rng.random(outliers) ** 1.3)
-    return _mixed(rng, p_true, clutter, truth, sigma)
+    return _mixed(rng, p_true, clutter, truth=truth, sigma=sigma)
 
 
 def two_planes_scene(
@@ -101,7 +101,7 @@ def two_planes_scene(
     on_wall += sigma * rng.normal(size=on_wall.shape)
     clutter = up(_clutter_places(rng, outliers), 1.2 * rng.random(outliers) ** 1.3)
     others = np.concatenate([on_wall, clutter])
-    return _mixed(rng, p_true, others, truth, sigma, other=len(on_wall))
+    return _mixed(rng, p_true, others, truth=truth, sigma=sigma, other=len(on_wall))
 
 
 def wire_scene(
@@ -121,7 +121,7 @@ def wire_scene(
     rest = up(rng.uniform(-1.0, 1.0, (inliers - wired, 2)), np.zeros(inliers - wired))
     clutter = up(_clutter_places(rng, outliers), 1.2 * rng.random(outliers) ** 1.3)
     noisy = rest + sigma * rng.normal(size=rest.shape)
-    scene = _mixed(rng, np.concatenate([wire, noisy]), clutter, truth, 0.0, first=3)
+    scene = _mixed(rng, np.concatenate([wire, noisy]), clutter, truth=truth, sigma=0.0, first=3)
     return RobustScene(scene.p, scene.is_inlier, truth, np.concatenate([wire, rest]), scene.quality)
 
 
@@ -137,7 +137,7 @@ def circle_scene(
     angle = rng.uniform(0.0, 2.0) * np.pi + rng.uniform(0.0, 4.0 / 3.0, inliers) * np.pi
     p_true = center + radius * np.column_stack([np.cos(angle), np.sin(angle)])
     clutter = 1.0 - 2.0 * rng.random((outliers, 2)) ** 1.5
-    return _mixed(rng, p_true, clutter, np.append(center, radius), sigma)
+    return _mixed(rng, p_true, clutter, truth=np.append(center, radius), sigma=sigma)
 
 
 def sphere_scene(
@@ -151,7 +151,7 @@ def sphere_scene(
     direction[:, 2] = np.abs(direction[:, 2])
     p_true = center + radius * direction / np.linalg.norm(direction, axis=1, keepdims=True)
     clutter = rng.uniform([-1.0, -1.0, 0.0], [1.0, 1.0, 1.5], (outliers, 3))
-    return _mixed(rng, p_true, clutter, np.append(center, radius), sigma)
+    return _mixed(rng, p_true, clutter, truth=np.append(center, radius), sigma=sigma)
 
 
 def match_scene(
@@ -191,7 +191,7 @@ def match_scene(
             @ np.linalg.inv(_K)
         )
         truth = truth / np.linalg.norm(truth)
-    return _mixed(rng, p_true, wrong, truth, sigma)
+    return _mixed(rng, p_true, wrong, truth=truth, sigma=sigma)
 
 
 def wall_matches(
@@ -234,9 +234,9 @@ def _mixed(
     rng: np.random.Generator,
     p_true: np.ndarray,
     others: np.ndarray,
+    *,
     truth: np.ndarray,
     sigma: float,
-    *,
     first: int = 0,
     other: int = 0,
 ) -> RobustScene:

@@ -139,7 +139,7 @@ def built_in(params: Input, outliers: float) -> Subject:
     known: dict[str, Any] = {name: getattr(made, name) for name in names}
     if model.unit == "px":
         size = np.array(robust.IMAGE_SIZE, float)
-        return _of_matches(model, made.p, (size, size), PIXEL, **known)
+        return _of_matches(model, made.p, (size, size), pixel=PIXEL, **known)
     if model.columns == 2:
         window = np.array([1.1, 1.1])
         return Subject(model=model, p=made.p, low=-window, high=window, places=(stand_up,), **known)
@@ -196,8 +196,8 @@ def _own_matches(params: Input, model: Model) -> Subject:
         model,
         p,
         sizes,
-        1.28 / max(float(np.max(sizes)), 1.0),
-        images,
+        pixel=1.28 / max(float(np.max(sizes)), 1.0),
+        images=images,
         truth=truth,
         p_true=p[near],
         is_inlier=known,
@@ -209,6 +209,7 @@ def _of_matches(
     model: Model,
     p: np.ndarray,
     sizes: tuple[np.ndarray, ...],
+    *,
     pixel: float,
     images=(None, None),
     **known,

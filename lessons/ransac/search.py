@@ -104,7 +104,7 @@ def _tries(
         subject.p,
         model,
         chain(chosen_sample(params, subject), _samples(params, subject)),
-        judge,
+        judge=judge,
         needed_for=needed_for,
         share_of=(lambda fit: subject.trusted(fit)[1]) if params.sampler == "PROSAC" else None,
         confidence=params.confidence,

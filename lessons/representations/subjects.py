@@ -70,11 +70,11 @@ def subject_of(params: Params, box_sdf: BoxSdf) -> Subject:
         return _rabbit()
     if params.shape == "torus":
         return _torus()
-    return _boxed(params.shape, params.thickness / params.resolution, params.seed, box_sdf)
+    return _boxed(params.shape, params.thickness / params.resolution, params.seed, box_sdf=box_sdf)
 
 
 @functools.lru_cache(maxsize=16)
-def _boxed(shape: Shape, thin: float, seed: int, box_sdf: BoxSdf) -> Subject:
+def _boxed(shape: Shape, thin: float, seed: int, *, box_sdf: BoxSdf) -> Subject:
     """Return the box, both boxes, or the plate, half of whose thickness is given."""
     if shape == "box":
         return _box("the box", HALF, lambda q: box_sdf(q, HALF))
@@ -89,7 +89,7 @@ def _boxed(shape: Shape, thin: float, seed: int, box_sdf: BoxSdf) -> Subject:
         )
     half = np.array([PLATE, PLATE, thin])
     R = exp_so3(1.5 * np.random.default_rng(seed).normal(size=3))
-    return _box("the plate", half, lambda q: box_sdf(q @ R, half), R)
+    return _box("the plate", half, lambda q: box_sdf(q @ R, half), R=R)
 
 
 def measured(subject: Subject, p: np.ndarray, faces: np.ndarray) -> Surface:
@@ -109,7 +109,7 @@ def measured(subject: Subject, p: np.ndarray, faces: np.ndarray) -> Surface:
         worst=float(away.max()),
         area=area / subject.area,
         volume=signed_volume(p, faces) / subject.volume if encloses(faces) else float("nan"),
-        tilt=_tilt(subject, p, faces, u[::16]) if subject.closed else float("nan"),
+        tilt=_tilt(subject, p, faces, u=u[::16]) if subject.closed else float("nan"),
     )
 
 
@@ -151,7 +151,7 @@ def spread_numbers() -> np.ndarray:
     return unit_points(SPREAD, 3, "Sobol", rng=np.random.default_rng(0))
 
 
-def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> float:
+def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, *, u: np.ndarray) -> float:
     """Return the mean angle between face normals and the gradient of the true distance, degrees."""
     normals = face_normals(p, faces)
     k, _ = places_on_faces(p, faces, u)
@@ -186,6 +186,7 @@ def _box(
     name: str,
     half: np.ndarray,
     field: Callable[[np.ndarray], np.ndarray],
+    *,
     R: np.ndarray | None = None,
 ) -> Subject:
     """Return a box about the origin, turned, with what is stored as its distance."""
@@ -236,14 +237,14 @@ def _of_mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
 @functools.lru_cache(maxsize=4)
 def _own(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
     p, faces = read_welded(path, MOST_OWN, "stored")
-    return _of_mesh(path.name, own_points(p, path, up, OWN_SIZE), faces)
+    return _of_mesh(path.name, own_points(p, path, up, width=OWN_SIZE), faces)
 
 
 @functools.lru_cache(maxsize=4)
 def _own_cloud(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
     """Return points whose truth is nothing but themselves."""
     p = some_points(read_cloud(path, fewest=2), MOST_CLOUD, np.random.default_rng(0))
-    p = own_points(p, path, up, OWN_SIZE)
+    p = own_points(p, path, up, width=OWN_SIZE)
     tree = scipy.spatial.cKDTree(p)
 
     def distance(q: np.ndarray) -> np.ndarray:

@@ -291,7 +291,7 @@ def _shift(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
         "start": lines(body, np.eye(4), color="target"),
         **shown("body", body, state.T, opacity=0.12),
-        "start name": above("start", body, np.eye(4), "target"),
+        "start name": above("start", body, np.eye(4), color="target"),
         "path": dashed(np.stack([LIFT * UP, state.T[:3, 3] + LIFT * UP]), "neutral", dash=0.05),
         "wrong front": arrows(
             p_door, p_door + LONG * taken, "wrong", head=0.12, width=6, name="taken with w = 1"

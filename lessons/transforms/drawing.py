@@ -71,7 +71,7 @@ def lines(body: Body, T: np.ndarray, *, color: Role, width: float = 2.0) -> Segm
     return Segments(ends, color, width, pose)
 
 
-def above(word: str, body: Body, T: np.ndarray, color: Role) -> Label:
+def above(word: str, body: Body, T: np.ndarray, *, color: Role) -> Label:
     """Return a word over the highest vertex of the body."""
     p = transform(T, body.solid.p)
     return Label(word, p[np.argmax(p[:, 2])] + [0.0, 0.0, 0.08], color)
@@ -91,7 +91,7 @@ def draw(look: Look[Input, Body, Built]) -> Scene:
         **shown("start", body, identity, color="target", opacity=0.15),
         **shown("body", body, T),
         "world": Axes(None, 0.4, name="world axes"),
-        "start name": above("start", body, identity, "target"),
+        "start name": above("start", body, identity, color="target"),
         "vertex": Label(f"vertex {point}", state.trail[-1], "highlight"),
         "volume": DET.scalar(det, "det T"),
         "moved": MOVED.scalar(moved, f"vertex {point} from its start"),

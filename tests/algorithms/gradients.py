@@ -16,7 +16,7 @@ def descended(
     """Return what a training learns, to be written to, and its gradient; no step is taken."""
     caught: dict[str, Any] = {}
 
-    def descend(values, gradient, counts, rate):
+    def descend(values, gradient, counts, *, rate):
         caught.update(values=values, gradient=gradient)
         yield 0, 0.0
 
@@ -29,6 +29,7 @@ def assert_gradient(
     values: np.ndarray,
     gradient: Callable[[], tuple[float, np.ndarray]],
     rng: np.random.Generator,
+    *,
     tolerance: float = 1e-6,
     h: float = 1e-6,
 ) -> None:

@@ -31,7 +31,7 @@ def test_samples_solved_and_judged_together_give_the_states_of_one_by_one(model,
         samples = chain([np.zeros(model.sample_size, dtype=int)], drawn)
         judge = Judge(scene.p, one, 2.5, score)
         found.append(
-            list(ransac(scene.p, one, samples, judge, max_iterations=150, local_refit=refit))
+            list(ransac(scene.p, one, samples, judge=judge, max_iterations=150, local_refit=refit))
         )
     together, apart = found
     assert len(together) == len(apart)
@@ -50,7 +50,7 @@ def test_triangles_solved_and_judged_together_give_the_states_of_one_by_one():
     for one in (RIGID, replace(RIGID, solve_each=None)):
         drawn = uniform_samples(400, 3, np.random.default_rng(0))
         samples = chain([np.zeros(3, dtype=int)], drawn)
-        found.append(list(ransac(pairs, one, samples, Judge(pairs, one, 0.05))))
+        found.append(list(ransac(pairs, one, samples, judge=Judge(pairs, one, 0.05))))
     together, apart = found
     assert len(together) == len(apart)
     assert together[-1].iteration > TOGETHER
@@ -70,7 +70,9 @@ def test_no_more_samples_are_solved_than_are_left_to_try(most, batches):
 
     model = replace(HOMOGRAPHY, solve_each=solve_each)
     samples = uniform_samples(60, 4, np.random.default_rng(0))
-    *_, last = ransac(scene.p, model, samples, Judge(scene.p, model, 3.0), max_iterations=most)
+    *_, last = ransac(
+        scene.p, model, samples, judge=Judge(scene.p, model, 3.0), max_iterations=most
+    )
     assert last.iteration == most
     assert solved == batches
 

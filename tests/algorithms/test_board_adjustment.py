@@ -41,7 +41,7 @@ def last_of(uv: np.ndarray, Ts: np.ndarray, **options) -> Adjustment:
 
 def test_residuals_are_projected_minus_measured():
     Ts, uv = views()
-    block = linearised(TRUE, Ts[:, :3, :3], Ts[:, :3, 3], P, uv)
+    block = linearised(TRUE, Ts[:, :3, :3], Ts[:, :3, 3], p_board=P, uv=uv)
     expected = np.stack([project(P, T, boards.K_TRUE, LENS) for T in Ts]) - uv
     np.testing.assert_allclose(
         block[:, 15], np.concatenate([expected[..., 0], expected[..., 1]], axis=1), atol=1e-9
@@ -58,10 +58,10 @@ def test_slopes_are_those_of_differences(row):
     def residuals(step: float) -> np.ndarray:
         x = step * np.eye(15)[row]
         moved = turns(np.tile(x[9:12], (2, 1))) @ R, t + x[12:]
-        return linearised(TRUE + x[:9], *moved, P, uv)[:, 15]
+        return linearised(TRUE + x[:9], *moved, p_board=P, uv=uv)[:, 15]
 
     slope = (residuals(h) - residuals(-h)) / (2 * h)
-    found = linearised(TRUE, R, t, P, uv)[:, row]
+    found = linearised(TRUE, R, t, p_board=P, uv=uv)[:, row]
     np.testing.assert_allclose(found, slope, atol=1e-6 * max(np.abs(slope).max(), 1.0))
 
 
@@ -99,8 +99,8 @@ def test_the_covariance_is_that_of_all_unknowns_and_of_repetition():
         np.array([*found.K[[0, 1, 0, 1], [0, 1, 2, 2]], *found.lens]),
         found.Ts_camera_board[:, :3, :3],
         found.Ts_camera_board[:, :3, 3],
-        P,
-        uv,
+        p_board=P,
+        uv=uv,
     )
     J = np.zeros((uv.size, 9 + 24))
     for k in range(4):
@@ -133,7 +133,7 @@ def test_cauchy_is_scipys_loss_and_lets_far_corners_go():
         e2.ravel()[:3], lambda x: 0.25 * np.log1p(x / 0.25).sum(), 1e-7
     )
     np.testing.assert_allclose(robust.weights.ravel()[:3], slope, atol=1e-5)
-    block = linearised(TRUE, Ts[:, :3, :3], Ts[:, :3, 3], P, uv)
+    block = linearised(TRUE, Ts[:, :3, :3], Ts[:, :3, 3], p_board=P, uv=uv)
     cost, weights = loss(block, None)
     assert cost == pytest.approx((block[:, 15] ** 2).sum())
     assert (weights == 1).all()

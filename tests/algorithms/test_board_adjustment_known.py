@@ -37,7 +37,7 @@ def test_it_ends_at_rest_unless_told_otherwise():
 
 def test_information_of_what_is_shared_is_what_the_poses_leave():
     Ts, uv = views(4, count=3)
-    block = linearised(TRUE, Ts[:, :3, :3], Ts[:, :3, 3], P, uv)
+    block = linearised(TRUE, Ts[:, :3, :3], Ts[:, :3, 3], p_board=P, uv=uv)
     free = np.arange(9) < 6
     whole = np.zeros((6 + 3 * 6, 6 + 3 * 6))
     for k, rows in enumerate(block):

@@ -37,7 +37,7 @@ def test_ransac_finds_the_camera_among_outliers(outliers, seeds):
         T, table = rows(seed, outliers)
         model = camera_model(K)
         samples = uniform_samples(len(table), model.sample_size, np.random.default_rng(seed))
-        *_, last = ransac(table, model, samples, Judge(table, model, 3.0))
+        *_, last = ransac(table, model, samples, judge=Judge(table, model, 3.0))
         assert last.stop is Stop.ENOUGH
         assert last.best is not None
         assert degrees_between(last.best.estimate, T) < 0.5
@@ -93,7 +93,9 @@ def test_many_samples_solved_together_give_the_states_of_one_by_one(seed, outlie
         chosen = [np.array([0, 1, 2]), np.array([50, 60, 70]), np.array([50, 60, 70])]
         drawn = uniform_samples(len(table), 3, np.random.default_rng(seed))
         samples = iter([*chosen, *islice(drawn, 600)])
-        found.append(list(ransac(table, one, samples, Judge(table, one, 3.0), max_iterations=most)))
+        found.append(
+            list(ransac(table, one, samples, judge=Judge(table, one, 3.0), max_iterations=most))
+        )
     together, apart = found
     assert len(together) == len(apart) > 40
     assert together[1].phase == "degenerate"
@@ -105,9 +107,11 @@ def test_samples_that_are_used_up_are_all_tried():
     _, table = rows(0, 0.9)
     for count in (1, TOGETHER, TOGETHER + 1):
         samples = islice(uniform_samples(len(table), 3, np.random.default_rng(0)), count)
-        *_, last = ransac(table, camera_model(K), samples, Judge(table, camera_model(K), 1e-9))
+        *_, last = ransac(
+            table, camera_model(K), samples, judge=Judge(table, camera_model(K), 1e-9)
+        )
         assert last.iteration == count
-    *_, last = ransac(table, camera_model(K), iter([]), Judge(table, camera_model(K), 1.0))
+    *_, last = ransac(table, camera_model(K), iter([]), judge=Judge(table, camera_model(K), 1.0))
     assert (last.stop, last.iteration) == (Stop.NO_MODEL, 0)
 
 

@@ -80,7 +80,7 @@ def test_correlation_is_what_it_says(window):
     st.integers(1, 12),
     st.integers(1, 12),
 )
-def test_box_sums_equal_scipys(seed, window, h, w):
+def test_box_sums_equal_scipys(seed, window, h, *, w):
     image = np.random.default_rng(seed).integers(0, 256, (h, w)).astype(float)
     expected = scipy.ndimage.convolve(image, np.ones((window, window)), mode="nearest")
     assert np.allclose(box_sum(image, window, float), expected, rtol=1e-12)
@@ -148,14 +148,14 @@ def test_large_windows_do_not_overflow():
     ("max_disparity", "window", "message"),
     [(2, 4, "odd"), (2, -1, "odd"), (8, 3, "8 px wide"), (-1, 3, "8 px wide")],
 )
-def test_misuse_is_said(volume, max_disparity, window, message):
+def test_misuse_is_said(volume, max_disparity, window, *, message):
     with pytest.raises(ValueError, match=message):
         volume(np.zeros((9, 8)), np.zeros((9, 8)), max_disparity, window)
 
 
 def test_pictures_of_two_sizes_are_refused():
     with pytest.raises(ValueError, match=r"differ in size: \(9, 8\) and \(9, 9\)"):
-        cost_volume._check(np.zeros((9, 8)), np.zeros((9, 9)), 2, 3)
+        cost_volume._check(np.zeros((9, 8)), np.zeros((9, 9)), 2, window=3)
 
 
 @pytest.mark.parametrize("volume", VOLUMES)

@@ -35,7 +35,7 @@ from workbench.geometry.cameras.stereo import StereoCamera, depth_cloud, depth_f
 CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 
 
-def made(scene, noise=2.0, camera=CAMERA, seed=0) -> tuple[Any, np.ndarray, np.ndarray]:
+def made(scene, noise=2.0, camera=CAMERA, *, seed=0) -> tuple[Any, np.ndarray, np.ndarray]:
     pair = synthetic_views(scene, camera, (160, 120), rng=np.random.default_rng(seed)).exposed(
         noise
     )
@@ -53,7 +53,12 @@ def disparity_map(left, right, max_disparity) -> tuple[np.ndarray, np.ndarray]:
     the worst match.
     """
     *_, last = match(
-        left, right, max_disparity, 1, lambda _: (CENSUS_BITS // 3, CENSUS_BITS), census_cost_volume
+        left,
+        right,
+        max_disparity,
+        window=1,
+        penalties=lambda _: (CENSUS_BITS // 3, CENSUS_BITS),
+        compare=census_cost_volume,
     )
     return filled(last), last.matched
 
@@ -67,7 +72,7 @@ def filled(last: Matching) -> np.ndarray:
     return everywhere
 
 
-def bad(disparity, truth, where, limit=1.0):
+def bad(disparity, truth, where, *, limit=1.0):
     """Return the share of pixels that are further than `limit` pixels off."""
     return float((np.abs(disparity - truth) > limit)[where].mean())
 
@@ -160,14 +165,14 @@ def test_a_shifted_picture_has_its_shift_as_disparity(compare, shift):
     scene = np.random.default_rng(1).random((24, 50)) * 255
     left = scene[:, :40]
     right = scene[:, shift : shift + 40]
-    last = list(match(left, right, 9, 5, None, compare))[-1]
+    last = list(match(left, right, 9, window=5, penalties=None, compare=compare))[-1]
     assert np.allclose(last.disparity[3:-3, 12:-3], shift, atol=0.35)
     assert last.matched[3:-3, 12:-3].all()
 
 
 def test_the_steps_are_all_there_and_in_order():
     _, left, right = made("planes")
-    states = list(match(left, right, 15, 5, lambda cost: (20.0, 60.0)))
+    states = list(match(left, right, 15, window=5, penalties=lambda cost: (20.0, 60.0)))
     stages = [state.stage for state in states]
     assert stages == [Stage.COMPARE] * 16 + [Stage.AGGREGATE] + [Stage.PATHS] * 8 + [
         Stage.CHECK,
@@ -180,7 +185,9 @@ def test_the_steps_are_all_there_and_in_order():
         for state in states[:16]
     )
     assert np.isnan(states[-1].disparity[~states[-1].matched]).all()
-    assert Stage.PATHS not in {state.stage for state in match(left, right, 15, 5, None)}
+    assert Stage.PATHS not in {
+        state.stage for state in match(left, right, 15, window=5, penalties=None)
+    }
 
 
 @pytest.mark.parametrize("scene", ["planes", "spheres", "posts", "repeated pattern"])
@@ -225,21 +232,27 @@ def test_small_and_bare_pictures_end_quietly(shape):
         assert disparity.shape == matched.shape == shape
         assert (disparity == 0).all()
         states = list(
-            match(bare.astype(float), bare.astype(float), max_disparity, 3, lambda cost: (1.0, 2.0))
+            match(
+                bare.astype(float),
+                bare.astype(float),
+                max_disparity,
+                window=3,
+                penalties=lambda cost: (1.0, 2.0),
+            )
         )
         assert np.isfinite(states[-1].disparity).all()
 
 
 def test_a_student_may_choose_in_floats():
     _, left, right = made("planes")
-    ours = list(match(left, right, 15, 3, lambda cost: (20.0, 60.0)))
+    ours = list(match(left, right, 15, window=3, penalties=lambda cost: (20.0, 60.0)))
     theirs = list(
         match(
             left,
             right,
             15,
-            3,
-            lambda cost: (20.0, 60.0),
+            window=3,
+            penalties=lambda cost: (20.0, 60.0),
             choose=lambda cost: np.argmin(cost, 0).astype(np.float32),
         )
     )
@@ -262,8 +275,8 @@ def test_cones(shared_data):
     disparity, matched = disparity_map(left, right, 63)
     assert bad(disparity, d_left, both_see) < 0.036  # 3.5 %; the promise is 4.2 %
     assert bad(disparity, d_left, both_see & matched) < 0.03
-    assert bad(disparity, d_left, both_see, 2.0) < 0.03
-    *_, blocks = match(left, right, 63, 9, None)
+    assert bad(disparity, d_left, both_see, limit=2.0) < 0.03
+    *_, blocks = match(left, right, 63, window=9, penalties=None)
     assert 0.10 < bad(filled(blocks), d_left, both_see) < 0.15  # what the paths are worth
 
 
@@ -275,14 +288,16 @@ def test_motorcycle():
     depth = depth_from_disparity(disparity + pair.camera.doffs, pair.camera.f, pair.camera.baseline)
     depth[~matched] = np.nan
     floor, panel = (slice(340, 498), slice(2, 740)), (slice(12, 90), slice(185, 272))
-    found, true = (angle(known, pair.camera, floor, panel) for known in (depth, true_depth(pair)))
+    found, true = (
+        angle(known, pair.camera, floor, two=panel) for known in (depth, true_depth(pair))
+    )
     assert found == pytest.approx(90, abs=2)
     assert found == pytest.approx(true, abs=0.5)  # 88.2 and 88.1 degrees
 
 
-def angle(depth, camera, one, two):
+def angle(depth, camera, one, *, two):
     """Return the angle between the planes in two parts of a picture, degrees."""
-    n_one, n_two = (plane_normal(depth, camera, *part) for part in (one, two))
+    n_one, n_two = (plane_normal(depth, camera, part[0], columns=part[1]) for part in (one, two))
     return float(np.degrees(np.arccos(np.abs(np.dot(n_one, n_two)))))
 
 
@@ -292,7 +307,7 @@ def true_depth(pair):
     )
 
 
-def plane_normal(depth, camera, rows, columns) -> np.ndarray:
+def plane_normal(depth, camera, rows, *, columns) -> np.ndarray:
     """Return the unit normal of the plane n . p = 1 that most points of a part of the picture lie
     on.
 
@@ -322,6 +337,6 @@ def plane_normal(depth, camera, rows, columns) -> np.ndarray:
 def test_a_state_says_what_its_stage_did():
     assert all(len(stage.value) > 10 for stage in Stage)
     _, left, right = made("planes")
-    state = next(match(left, right, 3, 1, None))
+    state = next(match(left, right, 3, window=1, penalties=None))
     with pytest.raises(dataclasses.FrozenInstanceError):
         setattr(state, "done", 3)  # noqa: B010

@@ -21,7 +21,7 @@ from workbench.geometry.shapes.circles_spheres import linearise_sphere
 
 def ended(p: np.ndarray):
     *_, end = descend(
-        lambda c: linearise_sphere(c, p), np.add, np.array([0.1, 0.1, 0.8]), damped_step
+        lambda c: linearise_sphere(c, p), np.add, np.array([0.1, 0.1, 0.8]), damped_step=damped_step
     )
     return end
 
@@ -33,7 +33,7 @@ def test_repetition_agrees_with_the_covariance_where_errors_are_independent_and_
     ratios = []
     for kind in ("independent", "alike in neighbours"):
         first, last = repeat_fit(
-            CIRCLE, end, places + errors(rng, (400, 60, 2), 0.02, kind), (400,)
+            CIRCLE, end, places + errors(rng, (400, 60, 2), 0.02, kind=kind), counts=(400,)
         )
         assert len(first.radii) == 0
         assert first.sigma == pytest.approx(0.02, rel=0.25)
@@ -50,13 +50,13 @@ def test_repetition_agrees_with_the_covariance_where_errors_are_independent_and_
 
 def test_without_a_covariance_nothing_is_repeated():
     p = arc_points(6.0, 3)
-    assert list(repeat_fit(CIRCLE, ended(p), p[None], (1,))) == []
+    assert list(repeat_fit(CIRCLE, ended(p), p[None], counts=(1,))) == []
 
 
 def test_starts_are_shown_when_asked_and_at_the_end():
     p = arc_points(6.28, 40)
     starts = np.column_stack([np.linspace(-3, 3, 7), np.zeros(7), np.ones(7)])
-    found = list(try_starts(p, starts, np.array([0.0, 0.0, 1.0]), 1e-3, (0, 2, 50)))
+    found = list(try_starts(p, starts, np.array([0.0, 0.0, 1.0]), damping=1e-3, shown=(0, 2, 50)))
     assert [basin.now.iteration for basin in found[:2]] == [0, 2]
     assert found[-1].now.done.all()
     np.testing.assert_allclose(found[-1].now.unknowns, np.tile([0, 0, 1], (7, 1)), atol=1e-6)

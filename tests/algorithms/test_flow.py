@@ -33,7 +33,7 @@ def clouds(seed, n, m):
 def test_the_distance_falls_at_every_step(name, seed, n):
     p_a, p_b = clouds(seed, n, n)
     distance, gradient = BOTH[name]
-    states = list(flow(p_a, p_b, distance, gradient, max_steps=25))
+    states = list(flow(p_a, p_b, distance, gradient=gradient, max_steps=25))
     values = [state.value for state in states]
     assert np.all(np.diff(values) < 0)
     assert states[0].p_moving is p_a
@@ -83,7 +83,7 @@ def test_earth_movers_brings_every_point_home(seed, n):
     p_a, p_b = nearly_home(seed, n)
     distance, gradient = BOTH["earth mover's"]
     most_steps = 1 / 0.03 + np.log(settled_value(n) / (2 * n)) / np.log(1 - 0.3 / n)
-    *_, last = flow(p_a, p_b, distance, gradient, max_steps=int(most_steps))
+    *_, last = flow(p_a, p_b, distance, gradient=gradient, max_steps=int(most_steps))
     assert last.stop is not Stop.MAX_STEPS
     assert last.value <= settled_value(n)
 
@@ -94,7 +94,7 @@ def test_earth_movers_brings_a_straggler_home(seed, n):
     # last one nowhere
     p_a, p_b = clouds(seed, n, n)
     distance, gradient = BOTH["earth mover's"]
-    *_, last = flow(p_a, p_b, distance, gradient, max_steps=300)
+    *_, last = flow(p_a, p_b, distance, gradient=gradient, max_steps=300)
     assert last.stop is Stop.SETTLED
     assert last.value <= settled_value(n)
 
@@ -106,7 +106,7 @@ def test_earth_movers_has_no_minimum_but_home(seed, n):
     # line
     p_a, p_b = clouds(seed, n, n)
     distance, gradient = BOTH["earth mover's"]
-    for state in flow(p_a, p_b, distance, gradient, max_steps=25):
+    for state in flow(p_a, p_b, distance, gradient=gradient, max_steps=25):
         squared = np.vdot(state.slope, state.slope)
         length = n * best_matching(state.p_moving, p_b).distances.min()
         lower = distance(state.p_moving - length * state.slope, p_b)
@@ -119,7 +119,7 @@ def test_chamfer_settles_with_points_left_over():
     p_b = np.array([[-1.0, 0, 0], [1, 0, 0], [10, 0, 0]])
     p_a = np.array([[0.1, 0, 0], [9.9, 0, 0], [10.2, 0, 0]])
     distance, gradient = BOTH["chamfer"]
-    *_, last = flow(p_a, p_b, distance, gradient, max_steps=2000)
+    *_, last = flow(p_a, p_b, distance, gradient=gradient, max_steps=2000)
     assert last.stop is Stop.SETTLED
     assert last.value > 0.5
     assert rms(last.slope) < 1e-3
@@ -132,8 +132,11 @@ def test_a_moved_scene_flows_the_same_way(name):
     p_a, p_b = clouds(4, 12, 12)
     distance, gradient = BOTH[name]
     v = np.array([3.0, -1.0, 2.0])
-    here = [state.p_moving for state in flow(p_a, p_b, distance, gradient, max_steps=10)]
-    there = [state.p_moving for state in flow(p_a + v, p_b + v, distance, gradient, max_steps=10)]
+    here = [state.p_moving for state in flow(p_a, p_b, distance, gradient=gradient, max_steps=10)]
+    there = [
+        state.p_moving
+        for state in flow(p_a + v, p_b + v, distance, gradient=gradient, max_steps=10)
+    ]
     np.testing.assert_allclose(np.array(there) - v, np.array(here), atol=1e-9)
 
 
@@ -142,10 +145,12 @@ def test_a_distance_without_gradient_flows_the_same_way(name):
     p_a, p_b = clouds(5, 10, 10)
     p_a[:, 1] = p_b[:, 1] = 0.7  # in a plane
     distance, gradient = BOTH[name]
-    ours = [state.p_moving for state in flow(p_a, p_b, distance, gradient, max_steps=8)]
+    ours = [state.p_moving for state in flow(p_a, p_b, distance, gradient=gradient, max_steps=8)]
     numeric = [
         state.p_moving
-        for state in flow(p_a, p_b, distance, partial(numeric_gradient, distance), max_steps=8)
+        for state in flow(
+            p_a, p_b, distance, gradient=partial(numeric_gradient, distance), max_steps=8
+        )
     ]
     np.testing.assert_allclose(np.array(numeric), np.array(ours), atol=1e-5)
 
@@ -161,7 +166,7 @@ def test_numeric_gradient_of_a_known_function_leaves_its_input_alone():
 def test_equal_clouds_have_arrived():
     p, _ = clouds(7, 5, 5)
     for distance, gradient in BOTH.values():
-        states = list(flow(p, p[::-1].copy(), distance, gradient))
+        states = list(flow(p, p[::-1].copy(), distance, gradient=gradient))
         assert len(states) == 1
         assert states[0].stop is Stop.ARRIVED
         assert states[0].stop.message.startswith("arrived")
@@ -177,8 +182,8 @@ def test_polyak_goes_to_zero_of_a_cone_and_half_way_down_a_square():
 def test_the_limits_are_kept():
     p_a, p_b = clouds(8, 6, 6)
     distance, gradient = BOTH["earth mover's"]
-    states = list(flow(p_a, p_b, distance, gradient, max_steps=3, longest_step=0.01))
+    states = list(flow(p_a, p_b, distance, gradient=gradient, max_steps=3, longest_step=0.01))
     assert len(states) == 4
     assert states[-1].stop is Stop.MAX_STEPS
     with pytest.raises(ValueError, match="positive"):
-        list(flow(p_a, p_b, distance, gradient, longest_step=0.0))
+        list(flow(p_a, p_b, distance, gradient=gradient, longest_step=0.0))

@@ -9,7 +9,7 @@ from workbench.geometry.meshes import corners
 from workbench.geometry.meshes.laplacian import mixed_areas
 
 
-def last(p, faces, source=0, times=1.0):
+def last(p, faces, source=0, *, times=1.0):
     *_, state = heat_method(corners(p, faces), source, times * mean_edge_length(p, faces) ** 2)
     return state
 
@@ -83,5 +83,7 @@ def test_it_is_nearly_a_metric():
 def test_too_short_a_time_comes_out_too_short(times, low, high):
     ball = surfaces.sphere(642)
     true = np.arccos(np.clip(ball.p @ ball.p[0], -1, 1))
-    error = (last(ball.p, ball.faces, 0, times).d / np.where(true > 0, true, 1) - 1)[true > 0.3]
+    error = (last(ball.p, ball.faces, 0, times=times).d / np.where(true > 0, true, 1) - 1)[
+        true > 0.3
+    ]
     assert low < error.mean() < high

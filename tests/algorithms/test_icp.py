@@ -28,7 +28,7 @@ def turned(degrees: float, axis=(0.0, 0.0, 1.0), t=(0.0, 0.0, 0.0)) -> np.ndarra
 
 
 def rabbits(degrees: float = 20, n: int = 400, seed: int = 0, **options):
-    return pair("rabbit", n, turned(degrees), np.random.default_rng(seed), **options)
+    return pair("rabbit", n, turned(degrees), rng=np.random.default_rng(seed), **options)
 
 
 def degrees_off(T: np.ndarray, T_true: np.ndarray) -> float:
@@ -79,7 +79,7 @@ class TestNearest:
 class TestGate:
     @settings(max_examples=50, deadline=None)
     @given(SEEDS, st.floats(0.05, 1), st.floats(1, 5), st.floats(0.1, 3))
-    def test_the_smallest_limit_counts(self, seed, keep, medians, max_distance):
+    def test_the_smallest_limit_counts(self, seed, keep, medians, *, max_distance):
         distances = np.abs(np.random.default_rng(seed).standard_normal(50))
         limit = Gate(max_distance, keep, medians).limit(distances)
         near = np.sort(distances[distances <= max_distance])
@@ -115,7 +115,7 @@ class TestLaws:
         st.floats(0.4, 1),
         st.sampled_from([align_rigid, align_similarity, align_affine]),
     )
-    def test_the_cost_never_rises_from_anywhere(self, seed, angle, keep, align):
+    def test_the_cost_never_rises_from_anywhere(self, seed, angle, keep, *, align):
         scans = rabbits(angle, 150, seed, noise=0.01, outliers=0.1)
         states = list(
             icp(

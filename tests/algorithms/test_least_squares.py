@@ -33,7 +33,14 @@ def an_arc(seed: int, arc: float = 90.0, sigma: float = 0.02) -> np.ndarray:
 
 def moments(p: np.ndarray, start: np.ndarray, damping: float = 1e-3, **more):
     return list(
-        descend(lambda c: linearise_sphere(c, p), np.add, start, damped_step, damping, **more)
+        descend(
+            lambda c: linearise_sphere(c, p),
+            np.add,
+            start,
+            damped_step=damped_step,
+            damping=damping,
+            **more,
+        )
     )
 
 
@@ -142,15 +149,24 @@ def test_a_way_has_every_step_kept_and_every_one_taken_back():
 
 def test_singular_and_infinite_ends_are_told():
     constant = lambda x: (np.ones(3), np.zeros((3, 1)))  # noqa: E731
-    assert list(descend(constant, np.add, np.zeros(1), damped_step))[-1].stop is Stop.SINGULAR
+    assert (
+        list(descend(constant, np.add, np.zeros(1), damped_step=damped_step))[-1].stop
+        is Stop.SINGULAR
+    )
 
     def steep(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return np.exp(np.minimum(x, 800) ** 2) * np.ones(2), np.full((2, 1), 1e-3)
 
     assert (
-        list(descend(steep, np.add, np.array([1.0]), lambda r, J, d: np.array([900.0]), 0.0))[
-            -1
-        ].stop
+        list(
+            descend(
+                steep,
+                np.add,
+                np.array([1.0]),
+                damped_step=lambda r, J, d: np.array([900.0]),
+                damping=0.0,
+            )
+        )[-1].stop
         is Stop.DIVERGED
     )
     assert moments(an_arc(0), HOME, iterations=1)[-1].stop is Stop.MAX_ITERATIONS
@@ -161,7 +177,7 @@ def test_many_go_as_each_alone(damping):
     p = an_arc(1, 360.0)
     rng = np.random.default_rng(5)
     starts = np.column_stack([rng.uniform(-0.6, 0.6, (6, 2)), rng.uniform(0.5, 1.5, 6)])
-    *_, many = descend_many(lambda c: linearise_sphere(c, p), np.add, starts, damping)
+    *_, many = descend_many(lambda c: linearise_sphere(c, p), np.add, starts, damping=damping)
     assert many.done.all()
     for start, found, cost in zip(starts, many.unknowns, many.costs, strict=True):
         alone = moments(p, start, damping)[-1]

@@ -25,7 +25,7 @@ def samples(n: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
 
 
 def loss_of(
-    network: FieldNetwork, values: np.ndarray, x: np.ndarray, y: np.ndarray, target
+    network: FieldNetwork, values: np.ndarray, x: np.ndarray, *, y: np.ndarray, target
 ) -> float:
     layers = perceptron.layers_of(values, network.sizes)
     return neural_field._loss(
@@ -46,11 +46,11 @@ def test_gradients_are_those_of_finite_differences(target, activation):
     outputs = perceptron.forward(layers, x, activation)
     _, slope = neural_field._loss(outputs[-1][:, 0], y, target)
     into = perceptron.layers_of(gradient, network.sizes)
-    perceptron.backward(layers, outputs, slope[:, None], activation, into)
+    perceptron.backward(layers, outputs, slope[:, None], activation=activation, into=into)
     for k in rng.choice(len(values), 25, replace=False):
         step = np.zeros(len(values))
         step[k] = 1e-6
-        ends = [loss_of(network, values + sign * step, x, y, target) for sign in (1, -1)]
+        ends = [loss_of(network, values + sign * step, x, y=y, target=target) for sign in (1, -1)]
         assert gradient[k] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=2e-5)
 
 

@@ -13,7 +13,10 @@ V = np.array([10.0, 0.0, 0.0])
 def test_the_pan_rate_is_speed_over_the_distance_from_the_axis(miss, pan):
     beside = 10 * np.tan(np.radians(miss))
     *_, last = follow(
-        np.array([0, beside, 10.0]), V, np.linspace(-1, 1, 9), spherical_from_cartesian
+        np.array([0, beside, 10.0]),
+        V,
+        np.linspace(-1, 1, 9),
+        spherical_from_cartesian=spherical_from_cartesian,
     )
     assert np.degrees(last.pan_peak) == pytest.approx(pan, rel=1e-3)
     assert np.degrees(last.sight_peak) == pytest.approx(np.degrees(10 / np.hypot(10, beside)))
@@ -25,7 +28,7 @@ def test_both_axes_together_turn_the_line_of_sight():
         np.array([1.0, 3.0, 8.0]),
         np.array([4.0, -2.0, 1.0]),
         np.linspace(-1, 1, 7),
-        spherical_from_cartesian,
+        spherical_from_cartesian=spherical_from_cartesian,
     ):
         both = np.hypot(now.pan_rate * np.cos(now.tilt), now.tilt_rate)
         assert both == pytest.approx(now.sight_rate, rel=1e-6)
@@ -38,7 +41,7 @@ def test_a_pan_across_half_a_turn_is_no_jump():
             np.array([-5.0, 0.0, 3.0]),
             np.array([0.0, 1.0, 0.0]),
             np.array([-0.1, 0.0, 0.1]),
-            spherical_from_cartesian,
+            spherical_from_cartesian=spherical_from_cartesian,
         )
     )
     assert np.ptp([now.pan for now in found]) > 6
@@ -51,5 +54,9 @@ def test_a_wrong_azimuth_looks_past_the_target():
         c[:, 2] = np.arctan(p[:, 1] / p[:, 0])
         return c
 
-    found = list(follow(np.array([0.0, 5.0, 5.0]), V, np.array([-0.5, 0.5]), by_arctan))
+    found = list(
+        follow(
+            np.array([0.0, 5.0, 5.0]), V, np.array([-0.5, 0.5]), spherical_from_cartesian=by_arctan
+        )
+    )
     assert [now.off > 0.5 for now in found] == [True, False]

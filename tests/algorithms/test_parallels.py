@@ -27,7 +27,7 @@ def test_the_mean_of_vectors_of_the_page():
 def test_the_meeting_runs_away_comes_to_infinity_and_back():
     angles = np.radians([10.0, 1.0, 1e-6, 0.0])
     tilts = (0.1, 0.4)
-    found = list(turn_parallel(angles, tilts, 1.0, np.array([0.0, 1, 3, 7]), meet))
+    found = list(turn_parallel(angles, tilts, 1.0, stops=np.array([0.0, 1, 3, 7]), meet=meet))
     np.testing.assert_allclose(
         [now.x_h[0] / now.x_h[2] for now in found[:3]], 1 / np.tan(angles[:3])
     )

@@ -42,7 +42,9 @@ def test_even_angles_crowd_the_poles_and_even_heights_do_not(even, share):
 
 @pytest.mark.parametrize(("degrees", "short"), [(10, 0.15), (20, 0.59), (30, 1.28)])
 def test_the_mean_of_bearings_is_short_of_the_point(degrees, short):
-    *_, last = measure(10.0, np.radians(degrees), 0.02, (200_000,), np.random.default_rng(0))
+    *_, last = measure(
+        10.0, np.radians(degrees), 0.02, counts=(200_000,), rng=np.random.default_rng(0)
+    )
     assert 10 - last.mean[0] == pytest.approx(short, abs=0.01)
     assert 10 - last.expected[0] == pytest.approx(short, abs=0.005)
     assert last.debiased[0] == pytest.approx(10, abs=0.012)
@@ -50,5 +52,5 @@ def test_the_mean_of_bearings_is_short_of_the_point(degrees, short):
 
 
 def test_without_noise_the_mean_is_the_point():
-    *_, last = measure(10.0, 0.0, 0.0, (5,), np.random.default_rng(0))
+    *_, last = measure(10.0, 0.0, 0.0, counts=(5,), rng=np.random.default_rng(0))
     np.testing.assert_allclose(last.mean, last.true)

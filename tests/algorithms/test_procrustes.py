@@ -28,13 +28,13 @@ def cloud(seed: int, n: int = 30) -> np.ndarray:
 
 
 def steps(p, q, flip: Flip = "least"):
-    return {state.stage: state for state in procrustes(p, q, similarity_scale, flip)}
+    return {state.stage: state for state in procrustes(p, q, similarity_scale, flip=flip)}
 
 
 @settings(max_examples=40, deadline=None)
 @given(SEEDS, motions(), st.floats(0.2, 5), st.floats(0, 0.3), st.booleans())
 def test_the_end_is_the_best_similarity_and_the_step_before_the_best_motion(
-    seed, T, scale, noise, mirrored
+    seed, T, scale, *, noise, mirrored
 ):
     p = cloud(seed)
     q = (

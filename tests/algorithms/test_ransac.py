@@ -56,14 +56,16 @@ def found(state) -> Fit:
     return state.best
 
 
-def run_of(model, scene, seed=0, score=count_score, distance=None, **options):
-    return run_on(scene.p, model, seed, score, distance, **options)
+def run_of(model, scene, seed=0, *, score=count_score, distance=None, **options):
+    return run_on(scene.p, model, seed, score=score, distance=distance, **options)
 
 
-def run_on(p, model, seed=0, score=count_score, distance=None, **options):
+def run_on(p, model, seed=0, *, score=count_score, distance=None, **options):
     rng = np.random.default_rng(seed)
     judge = Judge(p, model, distance or WITHIN[model.unit], score)
-    return list(ransac(p, model, uniform_samples(len(p), model.sample_size, rng), judge, **options))
+    return list(
+        ransac(p, model, uniform_samples(len(p), model.sample_size, rng), judge=judge, **options)
+    )
 
 
 @pytest.mark.parametrize(("ratio", "needed"), [(0.5, 35), (0.3, 169), (0.2, 574)])
@@ -236,7 +238,7 @@ def test_chosen_samples_come_first_and_may_be_degenerate():
     scene = wire_scene(np.random.default_rng(0), count=200, outlier_ratio=0.3, sigma=0.01)
     rng = np.random.default_rng(0)
     samples = chain([np.array([0, 1, 2])], uniform_samples(200, 3, rng))
-    states = list(ransac(scene.p, PLANE, samples, Judge(scene.p, PLANE, 0.03)))
+    states = list(ransac(scene.p, PLANE, samples, judge=Judge(scene.p, PLANE, 0.03)))
     assert [state.phase for state in states[:2]] == ["sample", "degenerate"]
     assert states[-1].best is not None
 
@@ -244,12 +246,15 @@ def test_chosen_samples_come_first_and_may_be_degenerate():
 def test_no_more_samples_and_no_model_say_so():
     p = np.column_stack([np.arange(5.0), np.zeros((5, 2))])
     only = [np.array([0, 1, 2]), np.array([2, 3, 4])]
-    states = list(ransac(p, PLANE, iter(only), Judge(p, PLANE, 0.1)))
+    states = list(ransac(p, PLANE, iter(only), judge=Judge(p, PLANE, 0.1)))
     assert states[-1].stop is Stop.NO_MODEL
     assert states[-1].best is None
     p = np.concatenate([p, np.random.default_rng(0).normal(size=(20, 3))])
     p[4] = 0.0, 5.0, 0.0
-    assert list(ransac(p, PLANE, iter(only), Judge(p, PLANE, 0.1)))[-1].stop is Stop.SAMPLES_USED_UP
+    assert (
+        list(ransac(p, PLANE, iter(only), judge=Judge(p, PLANE, 0.1)))[-1].stop
+        is Stop.SAMPLES_USED_UP
+    )
     assert states[-1].stop.message
 
 
@@ -268,7 +273,7 @@ def test_bad_rows_are_refused():
         (np.full((9, 3), np.nan), "finite"),
     ):
         with pytest.raises(ValueError, match=message):
-            next(ransac(p, PLANE, iter([]), judge))
+            next(ransac(p, PLANE, iter([]), judge=judge))
 
 
 def test_the_largest_plane_wins_not_the_right_one():
@@ -291,7 +296,7 @@ def test_prosac_needs_fewer_samples_than_chance():
                 if name == "prosac"
                 else uniform_samples(300, 4, rng)
             )
-            states = ransac(scene.p, HOMOGRAPHY, samples, Judge(scene.p, HOMOGRAPHY, 2.5))
+            states = ransac(scene.p, HOMOGRAPHY, samples, judge=Judge(scene.p, HOMOGRAPHY, 2.5))
             drawn[name].append(
                 next(
                     s.iteration
@@ -306,7 +311,7 @@ def test_its_lines_can_be_watched():
     scene = SCENES["line"](np.random.default_rng(0))
     samples = uniform_samples(len(scene.p), 2, np.random.default_rng(0))
     with listening() as moment:
-        for state in ransac(scene.p, LINE, samples, Judge(scene.p, LINE, 0.03)):
+        for state in ransac(scene.p, LINE, samples, judge=Judge(scene.p, LINE, 0.03)):
             now = moment()
             assert now is not None
             lines, first = now.source
@@ -341,7 +346,7 @@ def test_it_comes_close_to_a_fit_that_knows_the_inliers(model, bound):
         scene = match_scene(
             np.random.default_rng(seed), count=300, outlier_ratio=0.33, sigma=1.0, flat=flat
         )
-        last = run_of(model, scene, seed, msac_score, 3.46 if flat else 1.96)[-1]
+        last = run_of(model, scene, seed, score=msac_score, distance=3.46 if flat else 1.96)[-1]
         oracle = model.refit(scene.p[scene.is_inlier], start=scene.truth)
         errors = [
             rms_distance(model, estimate, scene.p_true)
@@ -357,7 +362,7 @@ def test_the_photographs_give_back_their_true_matches(shared_data):
     matches = np.concatenate([pair["x1"], pair["x2"]], axis=1).astype(float)
     true = FUNDAMENTAL.distances(pair["F"], matches) < 1.0
     for seed in range(3):
-        best = found(run_on(matches, FUNDAMENTAL, seed, msac_score, 1.0)[-1])
+        best = found(run_on(matches, FUNDAMENTAL, seed, score=msac_score, distance=1.0)[-1])
         assert best.inliers[true].mean() >= 0.95
         assert rms_distance(FUNDAMENTAL, best.estimate, matches[true]) < 0.35
 
@@ -370,7 +375,7 @@ def test_floor_and_wall_of_a_real_room_meet_at_a_right_angle(shared_data):
     rest = p
     fits = []
     while len(fits) < 4:
-        fits.append(found(run_on(rest, PLANE, 0, msac_score, 0.02)[-1]))
+        fits.append(found(run_on(rest, PLANE, 0, score=msac_score, distance=0.02)[-1]))
         rest = rest[fits[-1].distances > 0.04]
     assert fits[0].count / len(p) == pytest.approx(0.27, abs=0.02)
     floor = max(

@@ -82,7 +82,7 @@ def test_ransac_finds_the_motion_among_three_quarters_of_outliers(seed):
     rows = np.hstack([p, q])
     samples = uniform_samples(len(rows), 3, np.random.default_rng(seed))
     *_, last = ransac(
-        rows, RIGID, samples, Judge(rows, RIGID, 0.05), confidence=0.999, max_iterations=4000
+        rows, RIGID, samples, judge=Judge(rows, RIGID, 0.05), confidence=0.999, max_iterations=4000
     )
     assert last.best is not None
     assert last.best.inliers[90:].all()

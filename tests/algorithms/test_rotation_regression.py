@@ -15,7 +15,7 @@ ALL = [(name, d) for d, table in ((2, IN_PLANE), (3, IN_SPACE)) for name in tabl
 
 @pytest.mark.parametrize("compared", ["numbers", "matrix"])
 @pytest.mark.parametrize(("name", "d"), ALL)
-def test_gradients_are_those_of_differences(monkeypatch, name, d, compared):
+def test_gradients_are_those_of_differences(monkeypatch, name, d, *, compared):
     rng = np.random.default_rng(1)
     R_test, _ = random_rotations(3, d, np.pi, rng=np.random.default_rng(2))
     values, gradient = descended(

@@ -91,7 +91,7 @@ def test_prosac_finds_a_clean_sample_sooner_when_trust_means_something():
     size=st.integers(2, 7),
     share=st.floats(0.0, 1.0),
 )
-def test_the_termination_length_is_the_papers(seed, n, size, share):
+def test_the_termination_length_is_the_papers(seed, n, size, *, share):
     """By the sums of its equations 7 to 9: the largest share that chance hardly gives, with all
     rows below twenty.
     """

@@ -20,7 +20,7 @@ from workbench.algorithms.stereo.semiglobal import (
 )
 
 
-def slowly(cost, direction, P1, P2):
+def slowly(cost, direction, P1, *, P2):
     """Return L_r as equation 13 has it, one pixel at a time."""
     n, h, w = cost.shape
     down, right = direction
@@ -41,7 +41,7 @@ def total_of(cost: np.ndarray, P1: float, P2: float) -> np.ndarray:
     return list(semi_global(cost, P1, P2))[-1].total
 
 
-def volume(seed: int, shape=(5, 6, 7), dtype: type = np.uint8, top: int = 25) -> np.ndarray:
+def volume(seed: int, shape=(5, 6, 7), dtype: type = np.uint8, *, top: int = 25) -> np.ndarray:
     return np.random.default_rng(seed).integers(0, top, shape).astype(dtype)
 
 
@@ -52,7 +52,7 @@ def test_a_path_follows_the_recursion(direction, dtype):
         cost = volume(seed, shape, dtype)
         prepared, jumps = prepare(cost, 3, 9)
         assert np.array_equal(
-            path_costs(prepared, direction, jumps), slowly(cost.astype(float), direction, 3, 9)
+            path_costs(prepared, direction, jumps), slowly(cost.astype(float), direction, 3, P2=9)
         )
 
 
@@ -64,7 +64,7 @@ def test_a_path_follows_the_recursion(direction, dtype):
     st.integers(0, 60),
     st.booleans(),
 )
-def test_the_total_is_the_sum_of_the_steps(seed, shape, P1, more, whole):
+def test_the_total_is_the_sum_of_the_steps(seed, shape, P1, *, more, whole):
     cost = volume(seed, shape, np.uint8 if whole else float)
     states = list(semi_global(cost, P1, P1 + more))
     assert [state.direction for state in states] == list(DIRECTIONS)
@@ -121,7 +121,7 @@ def test_turning_the_picture_turns_the_answer(seed):
     ],
 )
 def test_narrow_numbers_do_not_overflow(top, P2, dtype):
-    cost = volume(1, (6, 9, 9), dtype, top)
+    cost = volume(1, (6, 9, 9), dtype, top=top)
     for P1 in (P2 // 3, P2):
         assert np.array_equal(total_of(cost, P1, P2), total_of(cost.astype(float), P1, P2))
     path, jumps = prepare(cost, P2 // 3, P2)
@@ -133,16 +133,19 @@ def test_narrow_numbers_do_not_overflow(top, P2, dtype):
 @given(st.integers(0, 10**6), st.integers(0, 8), st.integers(0, 8))
 def test_along_one_line_it_finds_the_best_of_all_maps(seed, P1, more):
     P2 = P1 + more
-    cost = volume(seed, (3, 1, 5), float, 12) + np.random.default_rng(seed).random((3, 1, 5)) * 1e-3
+    cost = (
+        volume(seed, (3, 1, 5), float, top=12)
+        + np.random.default_rng(seed).random((3, 1, 5)) * 1e-3
+    )
     prepared, jumps = prepare(cost, P1, P2)
     both = (
         path_costs(prepared, (0, 1), jumps) + path_costs(prepared, (0, -1), jumps) - prepared
     )  # C counted once
     best = min(
-        energy(cost, np.array([line], float), P1, P2)
+        energy(cost, np.array([line], float), P1, P2=P2)
         for line in itertools.product(range(3), repeat=5)
     )
-    assert energy(cost, winner_takes_all(both).astype(float), P1, P2) == pytest.approx(
+    assert energy(cost, winner_takes_all(both).astype(float), P1, P2=P2) == pytest.approx(
         best, rel=1e-5
     )
 
@@ -154,7 +157,9 @@ def test_smoothing_lowers_the_energy_and_the_error_of_a_noisy_step():
     np.put_along_axis(cost, truth[None], rng.integers(0, 6, (1, 30, 40)).astype(np.uint8), 0)
     raw = winner_takes_all(cost)
     smooth = winner_takes_all(total_of(cost, 6, 20))
-    assert energy(cost, smooth.astype(float), 6, 20) < 0.5 * energy(cost, raw.astype(float), 6, 20)
+    assert energy(cost, smooth.astype(float), 6, P2=20) < 0.5 * energy(
+        cost, raw.astype(float), 6, P2=20
+    )
     assert (raw != truth).mean() > 0.3
     assert (smooth != truth).mean() < 0.02
 
@@ -168,14 +173,14 @@ def test_energy_is_what_it_says():
     disparity = np.array([[0.0, 1.0], [2.0, 2.0]])
     steps = [abs(a - b) for a, b in [(0, 1), (2, 2), (0, 2), (1, 2), (0, 2), (1, 2)]]
     expected = 1 + 6 + 0 + 9 + 10 * steps.count(1) + 100 * steps.count(2)
-    assert energy(cost, disparity, 10, 100) == pytest.approx(expected / 4)
-    assert energy(cost, np.array([[np.nan, 1.0], [2.0, np.nan]]), 10, 100) == pytest.approx(
+    assert energy(cost, disparity, 10, P2=100) == pytest.approx(expected / 4)
+    assert energy(cost, np.array([[np.nan, 1.0], [2.0, np.nan]]), 10, P2=100) == pytest.approx(
         (6 + 0 + 10) / 2
     )
-    assert energy(cost, np.array([[0.0, 0.0], [0.0, 0.0]]), 10, 100) == pytest.approx(
+    assert energy(cost, np.array([[0.0, 0.0], [0.0, 0.0]]), 10, P2=100) == pytest.approx(
         (1 + 2 + 3 + 9) / 4
     )
-    assert energy(cost, np.full((2, 2), np.nan), 10, 100) == 0.0
+    assert energy(cost, np.full((2, 2), np.nan), 10, P2=100) == 0.0
 
 
 @pytest.mark.parametrize(("P1", "P2"), [(5, 4), (-1, 3), (np.nan, 3)])

@@ -11,12 +11,12 @@ few = settings(max_examples=25, deadline=None)
 seeds = st.integers(0, 10_000)
 
 
-def costs(seed, n, m, offset=0.5):
+def costs(seed, n, m, *, offset=0.5):
     rng = np.random.default_rng(seed)
     return scipy.spatial.distance.cdist(rng.normal(size=(n, 3)), rng.normal(size=(m, 3)) + offset)
 
 
-def log_domain(cost, regularisation, g, sweeps):
+def log_domain(cost, regularisation, g, *, sweeps):
     """Sinkhorn's updates of the potentials themselves, Peyre and Cuturi 2019, equations 4.40 and
     4.41.
     """
@@ -34,13 +34,13 @@ def log_domain(cost, regularisation, g, sweeps):
 
 @few
 @given(seeds, st.integers(1, 20), st.integers(1, 20), st.sampled_from([0.003, 0.05, 0.3, 2.0]))
-def test_every_sweep_is_that_of_the_log_domain(seed, n, m, regularisation):
+def test_every_sweep_is_that_of_the_log_domain(seed, n, m, *, regularisation):
     cost = costs(seed, n, m)
     _, g = tight_potentials(cost, np.zeros(m))
     before = 0
     f = np.zeros(n)
     for state in sinkhorn_steps(cost, regularisation, max_sweeps=25, tolerance=0.0):
-        f, g = log_domain(cost, regularisation, g, state.sweep - before)
+        f, g = log_domain(cost, regularisation, g, sweeps=state.sweep - before)
         before = state.sweep
         np.testing.assert_allclose(state.f, f, atol=1e-9)
         np.testing.assert_allclose(state.g, g, atol=1e-9)
@@ -48,13 +48,13 @@ def test_every_sweep_is_that_of_the_log_domain(seed, n, m, regularisation):
 
 @few
 @given(seeds, st.integers(1, 20), st.integers(1, 20), st.floats(1, 5))
-def test_the_plan_does_not_depend_on_the_start(seed, n, m, blur):
+def test_the_plan_does_not_depend_on_the_start(seed, n, m, *, blur):
     # with as much blur as the largest cost a sweep shrinks Hilbert's distance of two scalings by
     # tanh(1/2)^2, below 1/4: Peyre and Cuturi 2019, theorem 4.1
     cost = costs(seed, n, m)
     regularisation = blur * cost.max()
     found = sinkhorn(cost, regularisation, tolerance=1e-13, max_sweeps=40)
-    f, g = log_domain(cost, regularisation, np.random.default_rng(seed).normal(size=m), 40)
+    f, g = log_domain(cost, regularisation, np.random.default_rng(seed).normal(size=m), sweeps=40)
     np.testing.assert_allclose(
         found.plan(cost), np.exp((f[:, None] + g - cost) / regularisation), atol=1e-12
     )
@@ -62,7 +62,7 @@ def test_the_plan_does_not_depend_on_the_start(seed, n, m, blur):
 
 @few
 @given(seeds, st.integers(1, 20), st.integers(1, 20), st.sampled_from([3, 30, 10_000]))
-def test_sums_are_as_right_as_it_says_and_the_cost_is_above_the_optimum(seed, n, m, max_sweeps):
+def test_sums_are_as_right_as_it_says_and_the_cost_is_above_the_optimum(seed, n, m, *, max_sweeps):
     rng = np.random.default_rng(seed)
     p_a = rng.normal(size=(n, 3))
     p_b = rng.normal(size=(m, 3)) + 0.5

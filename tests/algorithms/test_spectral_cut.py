@@ -59,11 +59,11 @@ def test_heat_is_kept_and_tends_to_the_exact_one(kind):
     u = np.eye(len(ball.p))[0]
     top = laplacian.largest()
     values, functions = laplacian.smallest(len(u))
-    last = list(heat(u, laplacian, 1.0 / top, 40))[-1]
+    last = list(heat(u, laplacian, 1.0 / top, steps=40))[-1]
     exact = functions @ (np.exp(-40 * values / top) * (functions.T @ (laplacian.mass * u)))
     np.testing.assert_allclose(last.exact, exact, atol=1e-9)
     assert laplacian.mass @ last.u == pytest.approx(laplacian.mass @ u)
-    finer = list(heat(u, laplacian, 0.25 / top, 160))[-1]
+    finer = list(heat(u, laplacian, 0.25 / top, steps=160))[-1]
     assert finer.error < last.error / 3
 
 
@@ -71,7 +71,9 @@ def test_longer_steps_than_two_over_the_largest_eigenvalue_explode():
     laplacian = plain(KARATE)
     u = np.eye(34)[0]
     top = laplacian.largest()
-    sizes = {c: np.abs(list(heat(u, laplacian, c / top, 100))[-1].u).max() for c in (1.9, 2.5)}
+    sizes = {
+        c: np.abs(list(heat(u, laplacian, c / top, steps=100))[-1].u).max() for c in (1.9, 2.5)
+    }
     assert sizes[1.9] < 1
     assert sizes[2.5] > 1e6
 

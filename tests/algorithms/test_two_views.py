@@ -19,7 +19,7 @@ from workbench.geometry.two_views.triangulation import triangulate
 def steps(uv_first, uv_second, **changed) -> list[Related]:
     scales = normalising_similarity(np.stack([uv_first, uv_second]))
     known = {
-        "linear": solve_linear(uv_first, uv_second, *scales),
+        "linear": solve_linear(uv_first, uv_second, scales[0], T_second=scales[1]),
         "eight_point": fit_fundamental,
         "essential_to_poses": essential_to_poses,
         "triangulate": triangulate,
@@ -59,14 +59,14 @@ def test_points_behind_the_second_camera_are_not_seen():
 def test_the_linear_answer_is_eight_points_before_its_rank():
     _, _, uv_first, uv_second = pair(1, 30, 1.0)
     scales = normalising_similarity(np.stack([uv_first, uv_second]))
-    linear = solve_linear(uv_first, uv_second, *scales)
+    linear = solve_linear(uv_first, uv_second, scales[0], T_second=scales[1])
     ours = fit_fundamental(uv_first, uv_second)
     np.testing.assert_allclose(
         linear.F_rank_two * np.sign((linear.F_rank_two * ours).sum()), ours, atol=1e-12
     )
     assert linear.singular_values.shape == (9,)
     assert (np.diff(linear.singular_values) <= 0).all()
-    few = solve_linear(uv_first[:8], uv_second[:8], *scales)
+    few = solve_linear(uv_first[:8], uv_second[:8], scales[0], T_second=scales[1])
     assert few.singular_values[8] == 0
     assert np.abs(sampson_distances(few.F, uv_first[:8], uv_second[:8])).max() < 1e-6
 

@@ -68,7 +68,7 @@ def test_its_exercise_is_handed_out_and_judged(written, tmp_path, capfd):
     ],
 )
 def test_what_is_no_name_or_taken_is_refused_and_nothing_is_written(
-    tmp_path, monkeypatch, capfd, name, said
+    tmp_path, monkeypatch, capfd, *, name, said
 ):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "taken").write_text("mine")

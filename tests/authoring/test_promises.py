@@ -401,7 +401,7 @@ BROKEN = [
 
 
 @pytest.mark.parametrize(("file", "old", "new", "said"), BROKEN)
-def test_what_does_not_hold_is_told_by_its_place(folder, file, old, new, said):
+def test_what_does_not_hold_is_told_by_its_place(folder, file, old, *, new, said):
     text = (folder / file).read_text(encoding="utf-8")
     assert old in text
     text = text.replace(old, new)

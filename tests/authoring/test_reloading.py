@@ -28,7 +28,7 @@ def edited(tmp_path) -> Edited:
     return Edited(folder, load(folder))
 
 
-def save(edited: Edited, file: str, old: str, new: str) -> None:
+def save(edited: Edited, file: str, old: str, *, new: str) -> None:
     path = edited.path / file
     text = path.read_text(encoding="utf-8")
     stamp = path.stat()
@@ -48,10 +48,10 @@ def save(edited: Edited, file: str, old: str, new: str) -> None:
         ("exercises/fit_circle.py", "Write the", "WRITE THE"),
     ],
 )
-def test_a_save_of_any_of_its_files_is_a_new_lesson(edited, file, old, new):
+def test_a_save_of_any_of_its_files_is_a_new_lesson(edited, file, old, *, new):
     before = edited.lesson
     assert not edited.changed()
-    save(edited, file, old, new)
+    save(edited, file, old, new=new)
     assert edited.changed()
     assert edited.trouble is None
     assert edited.lesson is not before
@@ -84,15 +84,15 @@ def test_files_that_are_new_or_go_away_count_and_others_do_not(edited):
     ],
 )
 def test_a_broken_save_keeps_the_lesson_and_says_where_until_it_is_mended(
-    edited, file, old, new, said
+    edited, file, old, *, new, said
 ):
     before = edited.lesson
-    save(edited, file, old, new)
+    save(edited, file, old, new=new)
     assert edited.changed()
     assert edited.lesson is before
     assert said in str(edited.trouble)
     assert Timeline(before, before.params()).extend()
-    save(edited, file, new, old)
+    save(edited, file, new, new=old)
     assert edited.changed()
     assert edited.trouble is None
     assert edited.lesson is not before
@@ -118,10 +118,10 @@ def test_a_file_is_followed_with_its_page(tmp_path):
 
 def test_params_are_carried_over_as_far_as_they_go(edited):
     before = replace(edited.lesson.params(), points=150, arc=60.0, noise=0.05, seed=7)
-    save(edited, "state.py", "5, 200)", "5, 100)")
-    save(edited, "state.py", "noise: Annotated[float", "sigma: Annotated[float")
-    save(edited, "lesson.py", "params.noise", "params.sigma")
-    save(edited, "presets.py", "noise=0", "sigma=0")
+    save(edited, "state.py", "5, 200)", new="5, 100)")
+    save(edited, "state.py", "noise: Annotated[float", new="sigma: Annotated[float")
+    save(edited, "lesson.py", "params.noise", new="params.sigma")
+    save(edited, "presets.py", "noise=0", new="sigma=0")
     assert edited.changed()
     assert edited.trouble is None
     after = carried(before, edited.lesson)
@@ -138,14 +138,14 @@ def test_a_student_s_file_drives_the_edited_lesson_too(edited, tmp_path):
     mine.write_text(text, encoding="utf-8")
     watched = WatchedFile(edited.lesson, mine)
     try:
-        save(edited, "draw.py", "The algebraic fit", "THE FIT")
+        save(edited, "draw.py", "The algebraic fit", new="THE FIT")
         assert edited.changed()
         watched.follow(edited.lesson)
         timeline = Timeline(watched.lesson, watched.lesson.params())
         timeline.extend()
         assert "THE FIT of 40 points gives radius 1.000 m" in timeline[0].caption.text
-        save(edited, "lesson.py", "fit_circle: Callable", "fit: Callable")
-        save(edited, "lesson.py", "refine(p, fit_circle(p))", "refine(p, fit(p))")
+        save(edited, "lesson.py", "fit_circle: Callable", new="fit: Callable")
+        save(edited, "lesson.py", "refine(p, fit_circle(p))", new="refine(p, fit(p))")
         assert edited.changed()
         with pytest.raises(
             InputError, match="run of lesson circle has no keyword 'fit_circle'; it has: fit"

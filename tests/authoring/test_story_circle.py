@@ -67,7 +67,7 @@ def test_its_numbers_are_those_of_its_runs():
     radii = [caption_of(step.scene).values["r"] for step in run.known()]
     assert [round(radius, 2) for radius in (radii[0], radii[-1])] == [0.77, 1.05]
     assert radii == sorted(radii)
-    assert answer(circle, circle.questions[0], 0.75, Timelines()).right
+    assert answer(circle, circle.questions[0], 0.75, timelines=Timelines()).right
     by_hand = Timeline(circle, circle.preset("hand").params).complete()
     offs = [caption_of(step.scene).values["off"] for step in by_hand.known()]
     best = offs.index(min(offs))

@@ -96,7 +96,7 @@ def test_what_is_not_there_is_no_finding(word, capfd):
         ("exercises/fit_circle.py", "CIRCLE =", "1 / 0\nCIRCLE =", "fit_circle.py, line"),
     ],
 )
-def test_what_takes_a_process_down_is_a_line_with_its_place(folder, file, old, new, said):
+def test_what_takes_a_process_down_is_a_line_with_its_place(folder, file, old, *, new, said):
     text = (folder / file).read_text(encoding="utf-8")
     assert old in text
     (folder / file).write_text(text.replace(old, new), encoding="utf-8")

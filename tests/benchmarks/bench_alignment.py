@@ -54,7 +54,7 @@ def bench_axes() -> None:
         "principal axes, 100,000 points",
         ours,
         dict(zip(peers, theirs, strict=True)),
-        "0.7, ratio 0.2 to sklearn",
+        floor="0.7, ratio 0.2 to sklearn",
     )
     small = np.random.default_rng(1).normal(size=(5000, 3)) * [0.5, 0.3, 0.2]
     right = by_numpy(small)
@@ -90,7 +90,7 @@ def bench_similarity() -> None:
         "similarity of pairs, 100,000",
         ours,
         dict(zip(peers, theirs, strict=True)),
-        "3.0, ratio 0.33 to skimage",
+        floor="3.0, ratio 0.33 to skimage",
     )
 
 

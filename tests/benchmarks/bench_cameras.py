@@ -53,7 +53,7 @@ def main() -> None:
     print(
         f"{'task (1M points, 5 coefficients)':36}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>7}{'floor':>7}{'differ by':>12}"  # noqa: E501
     )
-    theirs, gaps = peers(p_world, w, T_camera_world[:3, 3], uv)
+    theirs, gaps = peers(p_world, w, T_camera_world[:3, 3], uv=uv)
     for task, floor in FLOORS.items():
         if task in theirs:
             ratio = (
@@ -72,13 +72,17 @@ def main() -> None:
     K_small = intrinsics(260.0, 159.5, 119.5)
     faces = sum(len(solid.faces) for solid in scene.solids.values())
     for name, lens in (("no lens", NONE), ("barrel", Distortion(-0.3, 0.08))):
-        spent = milliseconds(lambda lens=lens: render(items, eye, K_small, 320, 240, lens))
+        spent = milliseconds(
+            lambda lens=lens: render(items, eye, K_small, width=320, height=240, distortion=lens)
+        )
         print(
             f"{f'draw the street, {faces:,} faces, {name}':36}{spent:9.1f}   (320 x 240, goal 50)"
         )
 
 
-def peers(p_world: np.ndarray, w: np.ndarray, t: np.ndarray, uv: np.ndarray) -> tuple[dict, dict]:
+def peers(
+    p_world: np.ndarray, w: np.ndarray, t: np.ndarray, *, uv: np.ndarray
+) -> tuple[dict, dict]:
     """Return OpenCV's times for the tasks and how far its answers are from ours; nothing where it
     is not installed.
     """

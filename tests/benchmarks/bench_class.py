@@ -118,7 +118,7 @@ async def class_of(server: Served, queries: list[str]) -> list[FakePage]:
     return pages
 
 
-async def stepping(page: FakePage, until: float, waits: Waits, every: float = 1.0) -> None:
+async def stepping(page: FakePage, until: float, waits: Waits, *, every: float = 1.0) -> None:
     """Step on once in a while, from the first again at the end."""
     await asyncio.sleep(every * np.random.default_rng(id(page) % 2**31).uniform())
     while time.perf_counter() < until:
@@ -129,7 +129,7 @@ async def stepping(page: FakePage, until: float, waits: Waits, every: float = 1.
 
 
 async def learning(
-    page: FakePage, until: float, waits: tuple[Waits, Waits], rng: np.random.Generator
+    page: FakePage, until: float, waits: tuple[Waits, Waits], *, rng: np.random.Generator
 ) -> None:
     """Once a second move one knob near its default, or, two times of three, step on; wait for what
     comes of it.
@@ -191,11 +191,11 @@ async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
     tasks: list[Callable[[float], Awaitable[None]]] = [
-        lambda end, page=page, i=i: learning(page, end, learned, np.random.default_rng(i))
+        lambda end, page=page, i=i: learning(page, end, learned, rng=np.random.default_rng(i))
         for i, page in enumerate(pages)
     ]
-    tasks += [lambda end: stepping(walker, end, found["mixed, steps"], 0.25)]
-    tasks += [lambda end: coming(server, "?lesson=transforms", end, found["mixed, new page"])]
+    tasks += [lambda end: stepping(walker, end, found["mixed, steps"], every=0.25)]
+    tasks += [lambda end: coming(server, "?lesson=transforms", end, waits=found["mixed, new page"])]
     await measured(server, given, tasks)
     await asyncio.gather(*(page.close() for page in (*pages, walker)))
     return found
@@ -214,8 +214,10 @@ async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
 
     def walking(which: str) -> list[Callable[[float], Awaitable[None]]]:
         return [
-            lambda end: stepping(walker, end, found[f"{which}, steps"], 0.25),
-            lambda end: coming(server, "?lesson=transforms", end, found[f"{which}, new page"]),
+            lambda end: stepping(walker, end, found[f"{which}, steps"], every=0.25),
+            lambda end: coming(
+                server, "?lesson=transforms", end, waits=found[f"{which}, new page"]
+            ),
         ]
 
     await measured(server, given, walking("alone"))
@@ -237,7 +239,9 @@ async def attacked(server: Served, given: argparse.Namespace) -> dict[str, Waits
     found = {name: Waits() for name in ("alone, steps", "attacked, steps", "attacked, new page")}
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
-    await measured(server, given, [lambda end: stepping(walker, end, found["alone, steps"], 0.25)])
+    await measured(
+        server, given, [lambda end: stepping(walker, end, found["alone, steps"], every=0.25)]
+    )
     command = [
         sys.executable,
         "-m",
@@ -249,8 +253,10 @@ async def attacked(server: Served, given: argparse.Namespace) -> dict[str, Waits
         while await asyncio.to_thread(attackers.stdout.readline) != "here\n":
             assert attackers.is_running()
         tasks: list[Callable[[float], Awaitable[None]]] = [
-            lambda end: stepping(walker, end, found["attacked, steps"], 0.25),
-            lambda end: coming(server, "?lesson=transforms", end, found["attacked, new page"]),
+            lambda end: stepping(walker, end, found["attacked, steps"], every=0.25),
+            lambda end: coming(
+                server, "?lesson=transforms", end, waits=found["attacked, new page"]
+            ),
         ]
         await measured(server, given, tasks)
         attackers.terminate()
@@ -259,7 +265,7 @@ async def attacked(server: Served, given: argparse.Namespace) -> dict[str, Waits
     return found
 
 
-async def coming(server: Served, query: str, end: float, waits: Waits) -> None:
+async def coming(server: Served, query: str, end: float, *, waits: Waits) -> None:
     """Open a new page now and then."""
     while time.perf_counter() < end:
         page, seconds = await arrived(server, query)

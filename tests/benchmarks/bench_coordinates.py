@@ -34,7 +34,7 @@ def bench_spherical(rounds: int) -> None:
         "spherical coordinates, 1,000,000 points",
         ours,
         dict(zip(peers, theirs, strict=True)),
-        "0.66 to trimesh",
+        floor="0.66 to trimesh",
     )
     c = spherical_from_cartesian(p)
     print(f"    back, farthest off: {np.abs(cartesian_from_spherical(c) - p).max():.1e} m")
@@ -56,7 +56,7 @@ def bench_distances(rounds: int) -> None:
     geod = pyproj.Geod(a=EARTH_RADIUS, f=0.0) if pyproj else None
     peers = {"pyproj": lambda: geod.inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])} if geod else {}
     ours, *theirs = best(lambda: great_circle_distance(a, b), *peers.values(), repeat=rounds)
-    line("distances on a sphere, 100,000", ours, dict(zip(peers, theirs, strict=True)), "0.1")
+    line("distances on a sphere, 100,000", ours, dict(zip(peers, theirs, strict=True)), floor="0.1")
     if geod:
         off = np.abs(
             great_circle_distance(a, b) - geod.inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])[2]

@@ -49,23 +49,25 @@ def main() -> None:
                 title,
                 both(surface, igl, pyvista),
                 surface,
-                FLOORS.get(("K and H", count)),
+                floor=FLOORS.get(("K and H", count)),
                 repeats=7,
             )
         compare(
             f"K alone, {count:,} vertices",
             gaussian(torus(count), igl, pyvista),
             torus(count),
-            None,
+            floor=None,
             repeats=7,
         )
     for count in (20_000, 200_000):
         surface = torus(count, jitter=0.2, rng=np.random.default_rng(0))
         title = f"K, H and directions by quadrics on a jittered torus, {len(surface.p):,} vertices"
-        compare(title, fits(surface, igl), surface, None, repeats=3)
+        compare(title, fits(surface, igl), surface, floor=None, repeats=3)
     for name, surface in (("sphere", sphere(20_000)), ("torus", torus(20_000))):
         title = f"50 eigenpairs of the cotangent Laplacian, {name}, {len(surface.p):,} vertices"
-        compare(title, spectra(surface, igl, lapy), None, FLOORS["eigenpairs", name], repeats=2)
+        compare(
+            title, spectra(surface, igl, lapy), None, floor=FLOORS["eigenpairs", name], repeats=2
+        )
 
 
 def both(
@@ -173,6 +175,7 @@ def compare(
     title: str,
     contenders: dict[str, Contender],
     surface: Surface | None,
+    *,
     floor: float | None,
     repeats: int,
 ) -> dict[str, float]:

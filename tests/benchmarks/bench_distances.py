@@ -50,26 +50,30 @@ def main() -> None:
         "Dijkstra, 81 x 81 nodes, 8 neighbours",
         ways(p, networkx),
         None,
-        FLOORS["dijkstra"],
+        floor=FLOORS["dijkstra"],
         repeats=5,
     )
     fast_marching(x, fmm)
     ball = surfaces.sphere(2562)
     compare(
         "Distance by heat, 2,562 vertices",
-        heats(ball.p, ball.faces, potpourri, igl),
+        heats(ball.p, ball.faces, potpourri, igl=igl),
         None,
-        FLOORS["heat"],
+        floor=FLOORS["heat"],
         repeats=5,
     )
     compare(
-        "Exact geodesics beside points on edges, 642 vertices", exact(igl), None, None, repeats=3
+        "Exact geodesics beside points on edges, 642 vertices",
+        exact(igl),
+        None,
+        floor=None,
+        repeats=3,
     )
     compare(
         "Mahalanobis, 2,000 x 2,000 points in 10 dimensions",
         whitened(),
         None,
-        FLOORS["mahalanobis"],
+        floor=FLOORS["mahalanobis"],
         repeats=3,
     )
 
@@ -108,7 +112,7 @@ def fast_marching(x: np.ndarray, fmm: ModuleType | None) -> None:
         f"Fast marching, {SIDE} x {SIDE}, from an exact disc",
         marches(x, fmm),
         None,
-        None,
+        floor=None,
         repeats=9,
     )
     if "scikit-fmm, first order" in medians:
@@ -182,7 +186,7 @@ def bare_rounds(start: np.ndarray, free: np.ndarray, h: float) -> Contender:
 
 
 def heats(
-    p: np.ndarray, faces: np.ndarray, potpourri: ModuleType | None, igl: ModuleType | None
+    p: np.ndarray, faces: np.ndarray, potpourri: ModuleType | None, *, igl: ModuleType | None
 ) -> dict[str, Contender]:
     """Return who factors and solves once; the largest distance, pi in truth, must be near."""
     time = mean_edge_length(p, faces) ** 2

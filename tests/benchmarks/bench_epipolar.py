@@ -66,6 +66,7 @@ def compared(
     task: str,
     rounds: int,
     ours: Callable[[], Any],
+    *,
     peers: dict[str, Callable[[], Any]],
     floor: str | Callable[[], Any] = "",
 ) -> None:
@@ -74,7 +75,7 @@ def compared(
     mine, least, *theirs = best(ours, bare, *peers.values(), repeat=rounds)
     if callable(floor):
         floor = f"{least / min(theirs):.2f}" if theirs else ""
-    line(task, mine, dict(zip(peers, theirs, strict=True)), floor)
+    line(task, mine, dict(zip(peers, theirs, strict=True)), floor=floor)
 
 
 def bare_eight_points(x: np.ndarray, y: np.ndarray) -> Callable[[], Any]:
@@ -111,16 +112,28 @@ def main() -> None:
         "eight points",
         rounds,
         lambda: fit_fundamental(x, y),
-        {"cv2": lambda: cv2.findFundamentalMat(x, y, cv2.FM_8POINT)} if cv2 else {},
-        bare_eight_points(x, y),
+        peers={"cv2": lambda: cv2.findFundamentalMat(x, y, cv2.FM_8POINT)} if cv2 else {},
+        floor=bare_eight_points(x, y),
     )
     print(
         "    floor: the normalising, a QR of all rows that keeps the digits which OpenCV's normal"
         " equations lose, and two SVDs"
     )
     triangulated = {"cv2": lambda: cv2.triangulatePoints(P, Q, x.T, y.T)} if cv2 else {}
-    compared("triangulation, linear", rounds, lambda: triangulate(P, Q, x, y), triangulated, "0.5")
-    compared("triangulation, midpoints", rounds, lambda: midpoints(T, xn, yn), triangulated, "0.25")
+    compared(
+        "triangulation, linear",
+        rounds,
+        lambda: triangulate(P, Q, x, y),
+        peers=triangulated,
+        floor="0.5",
+    )
+    compared(
+        "triangulation, midpoints",
+        rounds,
+        lambda: midpoints(T, xn, yn),
+        peers=triangulated,
+        floor="0.25",
+    )
     for name, p in (("linear", triangulate(P, Q, x, y)), ("midpoints", midpoints(T, xn, yn))):
         off = np.median(np.linalg.norm(p - pair.p_first, axis=1))
         print(f"    {name}: {1000 * off:.2f} mm off in the median")
@@ -151,7 +164,7 @@ def main() -> None:
     peers = ({"cv2 five points": by_cv2} if cv2 else {}) | (
         {"poselib": by_poselib} if poselib else {}
     )
-    compared("motion: eight points, refined", rounds, ours, peers)
+    compared("motion: eight points, refined", rounds, ours, peers=peers)
     for name, made in {"ours": ours, "ours, not refined": lambda: ours(False), **peers}.items():
         found = made()
         direction = np.degrees(angle_between(found[:3, 3], T[:3, 3]))
@@ -163,7 +176,7 @@ def main() -> None:
         "F refined over seven numbers",
         rounds,
         lambda: refine_fundamental(fit_fundamental(x, y), x, y),
-        {},
+        peers={},
     )
     none = np.zeros((5, 1))
     t = T[:3, 3:].copy()
@@ -172,7 +185,7 @@ def main() -> None:
         if cv2
         else {}
     )
-    compared("rectification", rounds, lambda: rectify(T, K, L), rectified)
+    compared("rectification", rounds, lambda: rectify(T, K, L), peers=rectified)
 
 
 if __name__ == "__main__":

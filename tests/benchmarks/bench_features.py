@@ -65,7 +65,7 @@ def main() -> None:
         bunny = voxel_means(read_cloud(SCANS / "bun000.ply"), 0.005)
         clouds.append((f"bunny, {len(bunny):,} points", bunny, 0.025))
     for name, p, radius in clouds:
-        described(name, rounds, p, radius)
+        described(name, rounds, p, radius=radius)
     p = clouds[-1][1]
     keypoints(rounds, p, clouds[-1][2])
     features = fpfh(p, point_normals(p), clouds[-1][2])
@@ -73,15 +73,15 @@ def main() -> None:
         "mutual matches of these with themselves",
         rounds,
         lambda: mutual_matches(features, features[::-1], 0.9),
-        {},
+        peers={},
     )
     left, _, _ = motorcycle_levels()
     compared(
         f"corner response, {left.shape[1]} x {left.shape[0]} pixels",
         rounds,
         lambda: harris_response(left),
-        {"cv2": lambda: cv2.cornerHarris(left.astype(np.float32), 3, 3, 0.04)} if cv2 else {},
-        functools.partial(bare_filters, left),
+        peers={"cv2": lambda: cv2.cornerHarris(left.astype(np.float32), 3, 3, 0.04)} if cv2 else {},
+        bare=functools.partial(bare_filters, left),
     )
     print(
         "    floor: scipy's four Gaussians and two Sobel filters alone, of double precision;"
@@ -107,7 +107,7 @@ def bare_filters(image: np.ndarray) -> None:
         scipy.ndimage.gaussian_filter(image, GATHER, output=filtered)
 
 
-def described(name: str, rounds: int, p: np.ndarray, radius: float) -> None:
+def described(name: str, rounds: int, p: np.ndarray, *, radius: float) -> None:
     """Compare descriptors, and say how near they are."""
     n = point_normals(p)
     peers = {}
@@ -123,7 +123,7 @@ def described(name: str, rounds: int, p: np.ndarray, radius: float) -> None:
             "open3d, 100 at most": search.KDTreeSearchParamHybrid(radius, 100),
         }
         peers = {said: lambda how=how: theirs(how) for said, how in ways.items()}
-    compared(f"FPFH, {name}", rounds, lambda: fpfh(p, n, radius), peers)
+    compared(f"FPFH, {name}", rounds, lambda: fpfh(p, n, radius), peers=peers)
     for said, way in peers.items():
         r = np.corrcoef(fpfh(p, n, radius).ravel(), way().ravel())[0, 1]
         print(f"    correlation with {said}: {r:.4f}")
@@ -143,7 +143,10 @@ def keypoints(rounds: int, p: np.ndarray, radius: float) -> None:
             min_neighbors=5,
         )
     compared(
-        "ISS keypoints of the last", rounds, lambda: iss_keypoints(p, radius, radius / 2), peers
+        "ISS keypoints of the last",
+        rounds,
+        lambda: iss_keypoints(p, radius, radius / 2),
+        peers=peers,
     )
 
 
@@ -196,6 +199,7 @@ def compared(
     task: str,
     rounds: int,
     ours: Callable[[], Any],
+    *,
     peers: dict[str, Callable[[], Any]],
     bare: Callable[[], Any] | None = None,
 ) -> None:
@@ -209,7 +213,7 @@ def compared(
             least[name] = min(least[name], 1000 * (time.process_time() - began))
     mine = least.pop("")
     floor = least.pop("bare", np.nan) / min(least.values(), default=np.nan)
-    line(task, mine, least, f"{floor:.2f}" if np.isfinite(floor) else "")
+    line(task, mine, least, floor=f"{floor:.2f}" if np.isfinite(floor) else "")
 
 
 if __name__ == "__main__":

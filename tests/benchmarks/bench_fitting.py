@@ -35,7 +35,11 @@ circle_fit, cv2 = optional("circle_fit"), optional("cv2")
 
 def descent(shape: RoundShape, p: np.ndarray, start: np.ndarray) -> np.ndarray:
     *_, end = descend(
-        lambda c: shape.linearise(c, p), shape.retract, start, damped_step, tolerance=1e-10
+        lambda c: shape.linearise(c, p),
+        shape.retract,
+        start,
+        damped_step=damped_step,
+        tolerance=1e-10,
     )
     return end.unknown
 
@@ -48,9 +52,9 @@ def several(fit):
     return fits
 
 
-def compare(task: str, ours, peers: dict, floor: str = "") -> None:
+def compare(task: str, ours, peers: dict, *, floor: str = "") -> None:
     mine, *theirs = best(several(ours), *(several(peer) for peer in peers.values()), repeat=ROUNDS)
-    line(f"{task}, {FITS} times", mine, dict(zip(peers, theirs, strict=True)), floor)
+    line(f"{task}, {FITS} times", mine, dict(zip(peers, theirs, strict=True)), floor=floor)
 
 
 def bench_circle() -> None:

@@ -33,7 +33,7 @@ def main() -> None:
         "Graph of 8 neighbours, either way, 20,000 points",
         joins(p, neighbors),
         None,
-        FLOORS["neighbours"],
+        floor=FLOORS["neighbours"],
         repeats=5,
     )
     few = graphs.joined(graphs.directed_graph(graphs.neighbours(p[:5000], 8)[0]), "union")
@@ -41,12 +41,12 @@ def main() -> None:
         "Second eigenvalue and vector of L, 5,000 nodes",
         fiedlers(few, networkx),
         None,
-        FLOORS["fiedler"],
+        floor=FLOORS["fiedler"],
         repeats=3,
     )
-    compare("The same, networkx as it is", slow(few, networkx), None, None, repeats=1)
+    compare("The same, networkx as it is", slow(few, networkx), None, floor=None, repeats=1)
     many = graphs.joined(graphs.directed_graph(graphs.neighbours(p, 8)[0]), "union")
-    compare("Components, 20,000 nodes", pieces(many, networkx), None, None, repeats=3)
+    compare("Components, 20,000 nodes", pieces(many, networkx), None, floor=None, repeats=3)
 
 
 def joins(p: np.ndarray, neighbors: ModuleType | None) -> dict[str, Contender]:

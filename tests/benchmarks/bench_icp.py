@@ -22,8 +22,8 @@ from workbench.geometry.motions.alignment import align_rigid, point_to_plane_ste
 from workbench.geometry.points.nearest import tree_for_many
 from workbench.geometry.points.normals import point_normals
 
-Register = Callable[[float, np.ndarray, float, int], np.ndarray]
-"""register(gate, T_target_source, stop below, most iterations) -> T_target_source"""
+Register = Callable[..., np.ndarray]
+"""register(gate, T_target_source, stop below, most=iterations) -> T_target_source"""
 
 FIRST, SECOND = 0.2, 0.02  # gates of the libraries, metres: first coarse, then tight
 ITERATIONS = 10
@@ -53,7 +53,7 @@ def best(*tasks: Callable[[], Any] | None, repeat: int = 5) -> list[float]:
     return [float(column.min()) for column in times.T]
 
 
-def line(task: str, ours: float, peers: dict[str, float], floor: str = "") -> None:
+def line(task: str, ours: float, peers: dict[str, float], *, floor: str = "") -> None:
     there = {name: t for name, t in peers.items() if np.isfinite(t)}
     peer = min(there, key=lambda name: there[name]) if there else ""
     others = ", ".join(f"{name} {t:.1f}" for name, t in there.items()) or "none installed"
@@ -63,7 +63,7 @@ def line(task: str, ours: float, peers: dict[str, float], floor: str = "") -> No
 
 def scans(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     T = motion(exp_so3(np.radians([3.0, -4.0, 10.0])), np.array([0.03, -0.02, 0.01]))
-    made = pair("rabbit", n, T, np.random.default_rng(1), overlap=0.8)
+    made = pair("rabbit", n, T, rng=np.random.default_rng(1), overlap=0.8)
     return made.p_target, made.p_source, T
 
 
@@ -98,7 +98,7 @@ def bench_alignment() -> None:
         "align_rigid, 100,000 pairs",
         ours,
         dict(zip(("open3d", "scipy", "trimesh"), peers, strict=True)),
-        "3.1, ratio 0.45",
+        floor="3.1, ratio 0.45",
     )
 
 
@@ -127,7 +127,7 @@ def bench_normals() -> None:
         "normals, 100,000 points, k = 16",
         ours,
         dict(zip(("open3d", "small_gicp"), peers, strict=True)),
-        floor_of(bare, peers),
+        floor=floor_of(bare, peers),
     )
     print("    floor: scipy's tree and search of the 16 nearest alone, beside peers' whole")
 
@@ -154,10 +154,12 @@ def bench_icp(n: int, floor_whole: str) -> None:
     o3_icp = open3d and with_open3d(p_target, p_source, n_target)
     gicp = small_gicp and with_small_gicp(p_target, p_source)
     start = np.eye(4)
-    o3_fixed = o3_icp and (lambda: o3_icp(FIRST, start, 0.0, ITERATIONS))
-    gicp_fixed = gicp and (lambda: gicp(FIRST, start, 0.0, ITERATIONS))
-    o3_whole = o3_icp and (lambda: o3_icp(SECOND, o3_icp(FIRST, start, 1e-6, 50), 1e-6, 50))
-    gicp_whole = gicp and (lambda: gicp(SECOND, gicp(FIRST, start, 1e-5, 50), 1e-6, 50))
+    o3_fixed = o3_icp and (lambda: o3_icp(FIRST, start, 0.0, most=ITERATIONS))
+    gicp_fixed = gicp and (lambda: gicp(FIRST, start, 0.0, most=ITERATIONS))
+    o3_whole = o3_icp and (
+        lambda: o3_icp(SECOND, o3_icp(FIRST, start, 1e-6, most=50), 1e-6, most=50)
+    )
+    gicp_whole = gicp and (lambda: gicp(SECOND, gicp(FIRST, start, 1e-5, most=50), 1e-6, most=50))
 
     names = ("open3d", "small_gicp")
     ours, *peers = (t / ITERATIONS for t in best(fixed_iterations, o3_fixed, gicp_fixed, repeat=3))
@@ -167,12 +169,12 @@ def bench_icp(n: int, floor_whole: str) -> None:
         f"point-to-plane, to its stop, {n:,}",
         ours,
         dict(zip(names, peers, strict=True)),
-        floor_whole,
+        floor=floor_whole,
     )
     errors = {"ours, d < 3 medians": whole(), "start": start}
     if o3_icp and o3_whole:
         errors |= {
-            "open3d, one gate": o3_icp(FIRST, start, 1e-6, 50),
+            "open3d, one gate": o3_icp(FIRST, start, 1e-6, most=50),
             "open3d, two gates": o3_whole(),
         }
     if gicp_whole:
@@ -200,10 +202,10 @@ def with_open3d(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
     target.normals = open3d.utility.Vector3dVector(n_target)
     plane = registration.TransformationEstimationPointToPlane()
 
-    def register(gate: float, T: np.ndarray, stop: float, most: int) -> np.ndarray:
+    def register(gate: float, T_target_source: np.ndarray, stop: float, *, most: int) -> np.ndarray:
         criteria = registration.ICPConvergenceCriteria(stop, stop, most)
         return registration.registration_icp(
-            source, target, gate, T, plane, criteria
+            source, target, gate, T_target_source, plane, criteria
         ).transformation
 
     return register
@@ -216,11 +218,11 @@ def with_small_gicp(p_target: np.ndarray, p_source: np.ndarray) -> Register:
         small_gicp.estimate_normals_covariances(cloud, num_neighbors=16)
     tree = small_gicp.KdTree(clouds[0], num_threads=2)
 
-    def register(gate: float, T: np.ndarray, stop: float, most: int) -> np.ndarray:
+    def register(gate: float, T_target_source: np.ndarray, stop: float, *, most: int) -> np.ndarray:
         found = small_gicp.align(
             *clouds,
             tree,
-            T,
+            T_target_source,
             registration_type="PLANE_ICP",
             max_correspondence_distance=gate,
             num_threads=2,
@@ -231,6 +233,11 @@ def with_small_gicp(p_target: np.ndarray, p_source: np.ndarray) -> Register:
         return found.T_target_source
 
     return register
+
+
+def through_both_gates(register: Register, start: np.ndarray, coarse: float) -> np.ndarray:
+    """Return where a library ends that is begun with a wide gate, and goes on with a tight one."""
+    return register(SECOND, register(FIRST, start, coarse, most=50), 1e-6, most=50)
 
 
 def profile(n: int) -> None:

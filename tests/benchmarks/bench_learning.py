@@ -62,8 +62,8 @@ def by_hand(values: np.ndarray, R: np.ndarray) -> tuple[float, np.ndarray]:
         layers,
         outputs,
         six.pullback(outputs[-1], 2 * off / BATCH),
-        "relu",
-        layers_of(slopes, SIZES),
+        activation="relu",
+        into=layers_of(slopes, SIZES),
     )
     return float((off * off).sum() / BATCH), slopes
 
@@ -119,7 +119,7 @@ def updates(rounds: int) -> None:
             values = first.copy()
             took = timed(
                 lambda way=way, values=values: [
-                    *descend(values, lambda: way(values, R), (UPDATES,), 4e-3)
+                    *descend(values, lambda: way(values, R), (UPDATES,), rate=4e-3)
                 ]
             )
             least[name] = min(least.get(name, np.inf), took / UPDATES)

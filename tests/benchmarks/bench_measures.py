@@ -49,7 +49,7 @@ def least(task: Task, repeats: int) -> tuple[float, float]:
 
 
 def compare(
-    name: str, ours: Task, peers: dict[str, Task], repeats: int = 7, *, exact: bool = True
+    name: str, ours: Task, peers: dict[str, Task], *, repeats: int = 7, exact: bool = True
 ) -> None:
     """Print one block: ours, each peer, and the ratio to the fastest of them; values must agree
     where they are exact.
@@ -78,7 +78,7 @@ def o3d_mesh(o3d: Any, p: np.ndarray, faces: np.ndarray) -> Any:
     )
 
 
-def sizes(p: np.ndarray, faces: np.ndarray, igl: Any, o3d: Any) -> None:
+def sizes(p: np.ndarray, faces: np.ndarray, igl: Any, *, o3d: Any) -> None:
     """Compare volumes and areas of one mesh."""
     volume: dict[str, Task] = {"trimesh": lambda: trimesh.Trimesh(p, faces, process=False).volume}
     area: dict[str, Task] = {"trimesh": lambda: trimesh.Trimesh(p, faces, process=False).area}
@@ -95,7 +95,7 @@ def sizes(p: np.ndarray, faces: np.ndarray, igl: Any, o3d: Any) -> None:
     compare(f"area, {name}", lambda: surface_area(p, faces), area)
 
 
-def samples(p: np.ndarray, faces: np.ndarray, n: int, o3d: Any) -> None:
+def samples(p: np.ndarray, faces: np.ndarray, n: int, *, o3d: Any) -> None:
     """Compare points drawn on one mesh."""
     rng = np.random.default_rng(0)
     mesh = trimesh.Trimesh(p, faces, process=False)
@@ -104,7 +104,9 @@ def samples(p: np.ndarray, faces: np.ndarray, n: int, o3d: Any) -> None:
         theirs = o3d_mesh(o3d, p, faces)
         peers["open3d"] = lambda: np.asarray(theirs.sample_points_uniformly(n).points)
     name = f"{n:,} points on {len(faces):,} faces"
-    compare(name, lambda: points_on_faces(p, faces, rng.random((n, 3))), peers, 5, exact=False)
+    compare(
+        name, lambda: points_on_faces(p, faces, rng.random((n, 3))), peers, repeats=5, exact=False
+    )
 
 
 def insides(n: int, igl: Any) -> None:
@@ -124,7 +126,7 @@ def insides(n: int, igl: Any) -> None:
             f"{len(few):,} of them",
             lambda: windings(columns(p, faces), few) != 0,
             contains,
-            2,
+            repeats=2,
             exact=False,
         )
     grid = grid_over(p.min(axis=0), p.max(axis=0), 64, shift=np.zeros(3))
@@ -139,7 +141,7 @@ def insides(n: int, igl: Any) -> None:
         "voxels, 64 along the longest side",
         lambda: occupied(p, faces, grid),
         voxels,
-        3,
+        repeats=3,
         exact=False,
     )
 
@@ -157,9 +159,9 @@ def main() -> None:
             print(f"{name} is not installed and left out")
     for count in (2562, 163_842):
         ball = surfaces.sphere(count)
-        sizes(ball.p, ball.faces, igl, o3d)
+        sizes(ball.p, ball.faces, igl, o3d=o3d)
     ball = surfaces.sphere(40_962)
-    samples(ball.p, ball.faces, 100_000, o3d)
+    samples(ball.p, ball.faces, 100_000, o3d=o3d)
     insides(20_000, igl)
 
 

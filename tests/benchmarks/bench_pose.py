@@ -54,7 +54,7 @@ def main() -> None:
         by_control_points(rounds, n, cv2)
     planes(rounds, cv2)
     for outliers in (0.5, 0.7):
-        among_outliers(rounds, outliers, cv2, poselib)
+        among_outliers(rounds, outliers, cv2, poselib=poselib)
 
 
 def three(rounds: int, cv2, poselib) -> None:
@@ -86,7 +86,7 @@ def three(rounds: int, cv2, poselib) -> None:
         "P3P, 1,000 triples; last column: solutions",
         rounds,
         ways,
-        lambda found: float(found),
+        judged=lambda found: float(found),
         per=1000,
     )
 
@@ -103,13 +103,13 @@ def many(rounds: int, n: int, cv2) -> None:
     if cv2:
         for name, flag in (("SQPNP", cv2.SOLVEPNP_SQPNP), ("default", cv2.SOLVEPNP_ITERATIVE)):
             ways[f"cv2 {name}"] = lambda flag=flag: np.stack(
-                [by_cv2(cv2, a, b, flag) for a, b in zip(p, xy, strict=True)]
+                [by_cv2(cv2, a, b, flag=flag) for a, b in zip(p, xy, strict=True)]
             )
     compare(
         f"SQPnP, 60 pictures of {n} points; degrees",
         rounds,
         ways,
-        lambda Ts: middle(Ts, views),
+        judged=lambda Ts: middle(Ts, views),
         per=60,
     )
 
@@ -124,13 +124,13 @@ def by_control_points(rounds: int, n: int, cv2) -> None:
     }
     if cv2:
         ways["cv2 EPNP"] = lambda: np.stack(
-            [by_cv2(cv2, a, b, cv2.SOLVEPNP_EPNP) for a, b in zip(p, xy, strict=True)]
+            [by_cv2(cv2, a, b, flag=cv2.SOLVEPNP_EPNP) for a, b in zip(p, xy, strict=True)]
         )
     compare(
         f"EPnP, 60 pictures of {n} points; degrees",
         rounds,
         ways,
-        lambda Ts: middle(Ts, views),
+        judged=lambda Ts: middle(Ts, views),
         per=60,
     )
 
@@ -147,14 +147,18 @@ def planes(rounds: int, cv2) -> None:
     }
     if cv2:
         ways["cv2 IPPE"] = lambda: np.stack(
-            [by_cv2(cv2, p, xy, cv2.SOLVEPNP_IPPE) for _, p, xy in views]
+            [by_cv2(cv2, p, xy, flag=cv2.SOLVEPNP_IPPE) for _, p, xy in views]
         )
     compare(
-        "IPPE, 60 pictures of 20 points of a plane; no column", rounds, ways, lambda Ts: 0.0, per=60
+        "IPPE, 60 pictures of 20 points of a plane; no column",
+        rounds,
+        ways,
+        judged=lambda Ts: 0.0,
+        per=60,
     )
 
 
-def among_outliers(rounds: int, outliers: float, cv2, poselib) -> None:
+def among_outliers(rounds: int, outliers: float, cv2, *, poselib) -> None:
     """Compare RANSAC on 10 pictures of 200 points."""
     views = []
     for seed in range(10):
@@ -184,7 +188,7 @@ def among_outliers(rounds: int, outliers: float, cv2, poselib) -> None:
             ]
         )
     said = f"RANSAC, 10 pictures of 200 points, {100 * outliers:.0f} % outliers; degrees"
-    compare(said, rounds, ways, lambda Ts: middle(Ts, views), per=10)
+    compare(said, rounds, ways, judged=lambda Ts: middle(Ts, views), per=10)
 
 
 def by_ransac(p: np.ndarray, uv: np.ndarray) -> np.ndarray:
@@ -192,11 +196,11 @@ def by_ransac(p: np.ndarray, uv: np.ndarray) -> np.ndarray:
     rows = np.column_stack([p, uv])
     model = camera_model(K)
     samples = uniform_samples(len(rows), 3, np.random.default_rng(0))
-    *_, last = ransac(rows, model, samples, Judge(rows, model, 3.0), max_iterations=500)
+    *_, last = ransac(rows, model, samples, judge=Judge(rows, model, 3.0), max_iterations=500)
     return last.best.estimate if last.best else np.eye(4)
 
 
-def by_cv2(cv2, p: np.ndarray, xy: np.ndarray, flag: int) -> np.ndarray:
+def by_cv2(cv2, p: np.ndarray, xy: np.ndarray, *, flag: int) -> np.ndarray:
     """Return a solver of OpenCV's."""
     _, turn, t = cv2.solvePnP(p[:, None], xy[:, None].copy(), np.eye(3), None, flags=flag)
     return motion(exp_so3(turn.ravel()), t.ravel())
@@ -211,8 +215,8 @@ def compare(
     task: str,
     rounds: int,
     ways: dict[str, Contender],
-    judged: Callable[[np.ndarray], float],
     *,
+    judged: Callable[[np.ndarray], float],
     per: int,
 ) -> None:
     """Run all contenders, taking turns, and print their times per problem, ours over theirs, and

@@ -48,7 +48,7 @@ def main() -> None:
         plane_scene(np.random.default_rng(seed), count=5000, outlier_ratio=0.5, sigma=0.01)
         for seed in seeds
     ]
-    compare("plane", planes, PLANE, plane_contenders(0.02), distance=0.02)
+    compare("plane", planes, PLANE, contenders=plane_contenders(0.02), distance=0.02)
     for model, distance in ((HOMOGRAPHY, 3.5), (FUNDAMENTAL, 2.0)):
         flat = model is HOMOGRAPHY
         scenes = [
@@ -61,14 +61,14 @@ def main() -> None:
             model.name,
             scenes,
             model,
-            match_contenders(model, distance),
+            contenders=match_contenders(model, distance),
             distance=distance,
         )
     print("\n  the arithmetic alone: our run's samples solved, distances and refits, without steps")
 
 
 def compare(
-    task: str, scenes: list, model: Model, contenders: dict[str, Contender], *, distance: float
+    task: str, scenes: list, model: Model, *, contenders: dict[str, Contender], distance: float
 ) -> None:
     """Run all contenders on all scenes, taking turns, and print their figures, the ratios to each
     peer, and the ratio to the quickest that the arithmetic of ours alone reaches.
@@ -137,7 +137,9 @@ def ours(model: Model, distance: float) -> Contender:
 
     def fit(p: np.ndarray) -> np.ndarray | None:
         samples = uniform_samples(len(p), model.sample_size, np.random.default_rng(0))
-        *_, last = ransac(p, model, samples, Judge(p, model, distance), max_iterations=MOST_SAMPLES)
+        *_, last = ransac(
+            p, model, samples, judge=Judge(p, model, distance), max_iterations=MOST_SAMPLES
+        )
         return last.best.estimate if last.best else None
 
     return fit

@@ -42,34 +42,38 @@ def main(rounds: int = 3) -> None:
         "1,500 iterations of 512, 3-32-32-1 with 2 octaves; mean error, m",
         networks(),
         None,
-        FLOORS["network"],
-        rounds,
+        floor=FLOORS["network"],
+        repeats=rounds,
     )
     compare(
         "25 iterations and the level set of 28³: one step of the lesson",
         steps(),
         None,
-        None,
-        rounds,
+        floor=None,
+        repeats=rounds,
     )
     compare(
         "100 x 100 points of a bicubic patch",
         patches(peer("geomdl.BSpline")),
         None,
-        FLOORS["patch"],
-        rounds,
+        floor=FLOORS["patch"],
+        repeats=rounds,
     )
     compare(
-        "32³ distances of a torus and their level set; volume", level_sets(), None, None, rounds
+        "32³ distances of a torus and their level set; volume",
+        level_sets(),
+        None,
+        floor=None,
+        repeats=rounds,
     )
     compare(
         "Signed distances of 4,000 points to 5,684 faces",
         distances(peer("igl")),
         None,
-        None,
-        rounds,
+        floor=None,
+        repeats=rounds,
     )
-    compare("Nearest of 4,000 points for 100 queries", searches(), None, None, rounds)
+    compare("Nearest of 4,000 points for 100 queries", searches(), None, floor=None, repeats=rounds)
 
 
 def samples() -> tuple[np.ndarray, np.ndarray]:

@@ -181,7 +181,7 @@ def least_times(task: Task, repeats: int) -> tuple[float, float, float]:
 
 
 def compare(
-    name: str, ours: Task, peers: dict[str, Task], floor: str | Task, repeats: int = 3
+    name: str, ours: Task, peers: dict[str, Task], *, floor: str | Task, repeats: int = 3
 ) -> None:
     """Print one block: ours, each peer, and the ratios; a floor that is a task is measured too."""
     wall, own, value = least_times(ours, repeats)
@@ -233,7 +233,7 @@ def main() -> None:
                 f"Chamfer, {n:,} points, {kind}",
                 lambda a=p_a, b=p_b: chamfer(a, b),
                 chamfer_peers(p_a, p_b),
-                functools.partial(bare_searches, p_a, p_b),
+                floor=functools.partial(bare_searches, p_a, p_b),
             )
     for n in (1000, 5000) if large else (1000, 2000):
         cost = scipy.spatial.distance.cdist(*clouds("sphere", n, rng))
@@ -242,8 +242,8 @@ def main() -> None:
             f"Sinkhorn, {n:,} points, sphere",
             lambda c=cost, r=regularisation: sinkhorn(c, r, tolerance=1e-8).cost(c),
             sinkhorn_peers(cost, regularisation),
-            "0.65",
-            2,
+            floor="0.65",
+            repeats=2,
         )
 
 

@@ -59,7 +59,9 @@ def main() -> None:
                 row: functools.partial(run, task, paths=what == "paths")
                 for row, run in (("unseen", unseen), ("floor", bare))
             }
-            compare(f"{what}, {name}", task, contenders(task.disparities), rounds, alone=alone)
+            compare(
+                f"{what}, {name}", task, contenders(task.disparities), rounds=rounds, alone=alone
+            )
     print(
         "\na floor: a comparison at every shift, the additions and minima of eq. 13, line by line,"
         " and the winners that the steps show; of blocks, without eq. 13"
@@ -111,7 +113,12 @@ def ours(disparities: int, window: int, *, paths: bool) -> Matcher:
 
     def run(left: np.ndarray, right: np.ndarray) -> np.ndarray:
         steps = match(
-            left.astype(float), right.astype(float), disparities - 1, window, penalties, compare_by
+            left.astype(float),
+            right.astype(float),
+            disparities - 1,
+            window=window,
+            penalties=penalties,
+            compare=compare_by,
         )
         return final(steps).disparity
 
@@ -215,8 +222,8 @@ def compare(
     name: str,
     task: Task,
     contenders: dict[str, Matcher],
-    rounds: int,
     *,
+    rounds: int,
     alone: dict[str, Callable[[], None]],
 ) -> None:
     """Run all contenders, taking turns, and print times, errors, ratios to the fastest peer, and

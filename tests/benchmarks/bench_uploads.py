@@ -36,7 +36,7 @@ FILES: dict[str, Callable[[], bytes]] = {
 """By name what is handed over."""
 
 
-async def handed(page: FakePage, field: str, name: str, content: bytes) -> None:
+async def handed(page: FakePage, field: str, name: str, *, content: bytes) -> None:
     """Hand a file to a field of a page, and wait for what comes of it."""
     before = page.run["run"]
     page.step = {}
@@ -75,11 +75,13 @@ async def watched(server: Served, given: argparse.Namespace) -> None:
                         await asyncio.sleep(0.3)
 
                 look = asyncio.create_task(looking())
-                step = asyncio.create_task(stepping(walker, time.perf_counter() + 1e4, waits, 0.05))
+                step = asyncio.create_task(
+                    stepping(walker, time.perf_counter() + 1e4, waits, every=0.05)
+                )
                 began = time.perf_counter()
                 told: Any = "?"
                 try:
-                    await handed(page, field, file, content)
+                    await handed(page, field, file, content=content)
                     told = page.step.get("step", {}).get("caption", page.run.get("stopped", ""))
                 except TimeoutError:
                     told = "nothing within 20 s"

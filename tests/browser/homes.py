@@ -177,7 +177,7 @@ def _site(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str]:
 def _notebook(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str]:
     file = folder / "saved.html"
     with patch("workbench.notebook.Timeline", server.runs.timelines.get):
-        html = Replay(lesson, lesson.params(), None, HEIGHT - 20)._repr_html_()
+        html = Replay(lesson, lesson.params(), None, height=HEIGHT - 20)._repr_html_()
     head = (
         "<meta charset=utf-8><meta name=viewport content='width=device-width'><title>Saved</title>"
     )

@@ -60,7 +60,7 @@ window.apart = () => {
 """
 
 
-def walk(page: Any, seed: int, acts: int, told: Callable[[str], None] = lambda _: None) -> None:
+def walk(page: Any, seed: int, acts: int, *, told: Callable[[str], None] = lambda _: None) -> None:
     """Walk through the story that is open, and look after each act whether stage and words
     belong together.
     """

@@ -135,7 +135,7 @@ def test_a_finger_moves_it_and_scrolls_beside_it(front, chromium, server):
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("phone", [False, True], ids=["wide", "phone"])
-def test_no_barriers(front, chromium, server, scheme, phone):
+def test_no_barriers(front, chromium, server, *, scheme, phone):
     size = (PHONE["width"], PHONE["height"]) if phone else (1440, 900)
     me = front(width=size[0], height=size[1])
     me.page.evaluate("dark => theme.set(dark)", scheme == "dark")

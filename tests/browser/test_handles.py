@@ -55,7 +55,7 @@ def handle(fed: Fed, name: str) -> dict[str, Any]:
     return fed("(name) => client.seen()[`/handle/${name}`]", name)
 
 
-def moved(fed: Fed, name: str, position: Any, wxyz: Any = (1.0, 0.0, 0.0, 0.0)) -> None:
+def moved(fed: Fed, name: str, position: Any, *, wxyz: Any = (1.0, 0.0, 0.0, 0.0)) -> None:
     """Let the client tell that a hand has moved a handle."""
     where = {"name": f"/handle/{name}", "position": list(position), "wxyz": list(wxyz)}
     fed(HEAR, {"type": "TransformControlsUpdateMessage", **where})
@@ -109,7 +109,7 @@ def test_what_a_hand_does_is_said_in_the_knob_s_own_numbers(fed):
     moved(fed, "place", [0.25, 0.75, -1.0])
     moved(fed, "flat", [0.25, 0.75, 0.0])
     turned = Rotation.from_rotvec([0.3, -0.4, 0.5])
-    moved(fed, "pose", [1.0, 2.0, 3.0], turned.as_quat(scalar_first=True).tolist())
+    moved(fed, "pose", [1.0, 2.0, 3.0], wxyz=turned.as_quat(scalar_first=True).tolist())
     place, flat, pose = fed("() => source.changed")
     assert (place, flat) == ({"place": [0.25, 0.75, -1.0]}, {"flat": [0.25, 0.75]})
     assert pose == {"pose": pytest.approx([1.0, 2.0, 3.0, 0.3, -0.4, 0.5])}
@@ -157,7 +157,7 @@ def test_a_click_tells_its_ray(fed):
     ("knobs", "can", "heard"),
     [(KNOBS, True, True), (KNOBS[:3], True, False), (KNOBS, False, False)],
 )
-def test_clicks_are_heard_where_a_knob_and_the_home_take_them(fed, knobs, can, heard):
+def test_clicks_are_heard_where_a_knob_and_the_home_take_them(fed, knobs, can, *, heard):
     picks = """([knobs, can]) => {
       const { knobs: own } = LESSON, { click } = source;
       LESSON.knobs = knobs;

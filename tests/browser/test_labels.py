@@ -51,7 +51,7 @@ def seen_from(eye: np.ndarray, target: np.ndarray, up: np.ndarray) -> np.ndarray
 
 
 def pixel(
-    p: np.ndarray, eye: np.ndarray, R: np.ndarray, fov: float, size: Any = SIZE
+    p: np.ndarray, eye: np.ndarray, R: np.ndarray, *, fov: float, size: Any = SIZE
 ) -> tuple[float, float, float]:
     """Return column, row and depth of a point of the world in a picture of so many pixels."""
     x, y, z = R.T @ (p - eye)
@@ -70,7 +70,7 @@ def test_a_word_stands_over_its_place_from_wherever_it_is_seen(fed):
         R = seen_from(eye, target, up)
         q = Rotation.from_matrix(R).as_quat(scalar_first=True) * RNG.choice([-1, 1])
         fed(said, {"wxyz": q.tolist(), "position": eye.tolist(), "fov": fov})
-        u, v, z = pixel(p, eye, R, fov)
+        u, v, z = pixel(p, eye, R, fov=fov)
         box = fed(WORDS)["w"]
         if z <= 0 or not (-50 < u < 850 and -50 < v < 550):
             assert box is None, "behind the camera, or out of the picture"
@@ -127,7 +127,7 @@ def test_before_the_client_tells_its_camera_it_is_that_of_the_view(fed, eye, up)
         ("/axis/x", np.array([0.54, 0, 0])),
         ("/axis/z", np.array([0, 0, 0.54])),
     ):
-        u, _, z = pixel(p, view.seen_from(), R, np.radians(60.0))
+        u, _, z = pixel(p, view.seen_from(), R, fov=np.radians(60.0))
         assert z > 0
         left, _, width, _ = boxes[name]
         assert left + width / 2 == pytest.approx(u, abs=0.51)
@@ -158,7 +158,7 @@ def test_words_at_one_place_do_not_cover_each_other(fed):
         np.zeros(3),
         np.array(BARE.eye),
         seen_from(np.array(BARE.eye), np.zeros(3), np.array(BARE.up)),
-        FOV,
+        fov=FOV,
     )
     left, top, width, height = boxes["near"]
     assert (left + width / 2, top + height + 2) == pytest.approx((u, v), abs=0.51), (
@@ -197,7 +197,7 @@ def test_a_word_glides_with_what_it_names(fed):
     for milliseconds, p in ((125, ends.mean(0)), (125, ends[1])):
         fed("(time) => { tick(time); tick(); }", milliseconds)
         left, _, width, _ = fed(WORDS)["w"]
-        assert left + width / 2 == pytest.approx(pixel(p, eye, R, FOV)[0], abs=0.51)
+        assert left + width / 2 == pytest.approx(pixel(p, eye, R, fov=FOV)[0], abs=0.51)
 
 
 CAMERA = (
@@ -245,7 +245,9 @@ def test_in_a_narrow_frame_words_stand_where_the_scene_is_drawn_from_the_first(f
     _, fov = fed(CAMERA)
     assert fov > FOV
     eye = np.array(BARE.eye)
-    u, _, _ = pixel(p, eye, seen_from(eye, np.zeros(3), np.array(BARE.up)), fov, (300, 500))
+    u, _, _ = pixel(
+        p, eye, seen_from(eye, np.zeros(3), np.array(BARE.up)), fov=fov, size=(300, 500)
+    )
     left, _, width, _ = fed(WORDS)["w"]
     assert left + width / 2 == pytest.approx(u, abs=0.51)
 

@@ -214,7 +214,7 @@ def test_a_name_of_nothing_changes_nothing(fed, path):
     assert fed("([k, path]) => lit(scenes[k].nodes, path) === scenes[k].nodes", [k, path])
 
 
-def ghosts(fed: Fed, scene: Scene, pin: Scene, dark: bool = False) -> dict[str, Any]:
+def ghosts(fed: Fed, scene: Scene, pin: Scene, *, dark: bool = False) -> dict[str, Any]:
     """Return the ghosts of a pinned scene behind another, by what follows `/ghost/`."""
     found = shown(fed, scene, pin=pin, dark=dark)
     return {
@@ -251,7 +251,7 @@ def test_what_is_at_its_place_has_no_ghost_however_it_is_coloured(fed):
 
 @pytest.mark.parametrize("dark", [False, True])
 def test_what_is_elsewhere_has_a_fine_and_pale_ghost_where_it_was(fed, dark):
-    found = ghosts(fed, MOVED_ALL, EVERY, dark)
+    found = ghosts(fed, MOVED_ALL, EVERY, dark=dark)
     assert found.keys() == {
         "points",
         "lines",

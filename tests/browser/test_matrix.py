@@ -50,7 +50,7 @@ def browser(chromium, server) -> Iterator[Browser]:
         if kind != "notebook" or name in EVERYWHERE
     ],
 )
-def test_a_lesson_does_everything_in_its_home(browser, tmp_path, name, kind):
+def test_a_lesson_does_everything_in_its_home(browser, tmp_path, name, *, kind):
     with browser.opened(kind, catalog()[name], tmp_path) as home:
         whole = kind == "live" or name in EVERYWHERE
         says_what_the_timeline_says(home)
@@ -293,7 +293,9 @@ def a_question_is_answered_wrong_and_right(home: Home) -> None:
     if not home.lesson.questions or has_story(home.lesson):  # asked in its scenes: test_story
         return
     question = asked(home.lesson)
-    found = answer(catalog()[home.lesson.name], question, None, home.server.runs.timelines)
+    found = answer(
+        catalog()[home.lesson.name], question, None, timelines=home.server.runs.timelines
+    )
     form = home.find(f"form[data-question='{question.name}']")
     if question.choices:
         wrong = next(one for one in question.choices if one != found.truth)

@@ -16,7 +16,7 @@ def test_a_reload_comes_back_to_the_place_and_what_was_answered_stays(visit):
     line = Timeline(lesson, lesson.preset("line").params).complete()
     me = visit("?lesson=fitting&theirs=1")
     question = next(one for one in lesson.questions if not one.choices)
-    found = answer(lesson, question, None, Timelines())
+    found = answer(lesson, question, None, timelines=Timelines())
     form = me.page.locator(f"form[data-question={question.name}]")
     form.locator("input").first.fill("50")
     form.get_by_role("button", name="Answer").click()

@@ -125,7 +125,7 @@ def differs(a: np.ndarray, b: np.ndarray) -> bool:
     ("file", "scheme"),
     [("index.html", "light"), ("index.html", "dark"), ("fake/index.html", "light")],
 )
-def test_no_serious_barrier_for_anybody(opened, address, file, scheme):
+def test_no_serious_barrier_for_anybody(opened, address, file, *, scheme):
     page = opened(
         f"{address}/{file}",
         until="" if file == "index.html" else SCENE_IS_THERE,

@@ -26,7 +26,13 @@ def taken(T_camera_board: np.ndarray, scale: int = 1, noise: float = 3.0) -> np.
     item = MeshItem(*boards.board_mesh())
     K = resize_intrinsics(boards.K_TRUE, 2.0 * scale, 2.0 * scale)
     fine = render(
-        [item], T_camera_board, K, int(w), int(h), boards.LENS_TRUE, background=(150, 150, 150)
+        [item],
+        T_camera_board,
+        K,
+        width=int(w),
+        height=int(h),
+        distortion=boards.LENS_TRUE,
+        background=(150, 150, 150),
     ).colors
     image = fine[..., 0].reshape(h // 2, 2, w // 2, 2).mean(axis=(1, 3))
     image = scipy.ndimage.gaussian_filter(image, 0.7 * scale)

@@ -33,7 +33,7 @@ def test_no_turn_takes_the_rabbit_to_itself_and_any_turn_the_vase():
 
 def test_a_pair_is_two_samplings_of_one_shape_in_two_frames():
     T = motion(exp_so3(np.array([0.3, -0.2, 1.0])), np.array([0.5, 0.1, -0.2]))
-    scans = pair("rabbit", 3000, T, np.random.default_rng(0))
+    scans = pair("rabbit", 3000, T, rng=np.random.default_rng(0))
     assert rms_gap(apply(T, scans.p_source), scans.p_target) < 0.015
     assert not np.isin(apply(T, scans.p_source).round(9), scans.p_target.round(9)).all(axis=1).any()
     assert not scans.is_outlier.any()
@@ -41,14 +41,14 @@ def test_a_pair_is_two_samplings_of_one_shape_in_two_frames():
 
 @pytest.mark.parametrize("overlap", [0.5, 0.8])
 def test_the_overlap_is_what_was_asked_for(overlap):
-    scans = pair("rabbit", 4000, np.eye(4), np.random.default_rng(0), overlap=overlap)
+    scans = pair("rabbit", 4000, np.eye(4), rng=np.random.default_rng(0), overlap=overlap)
     seen = scans.p_source[:, 0] <= scans.p_target[:, 0].max()
     assert np.mean(seen) == pytest.approx(overlap, abs=0.03)
 
 
 def test_noise_and_outliers_are_as_many_and_as_large_as_asked_for():
-    clean = pair("corner", 5000, np.eye(4), np.random.default_rng(0))
-    noisy = pair("corner", 5000, np.eye(4), np.random.default_rng(0), noise=0.01, outliers=0.2)
+    clean = pair("corner", 5000, np.eye(4), rng=np.random.default_rng(0))
+    noisy = pair("corner", 5000, np.eye(4), rng=np.random.default_rng(0), noise=0.01, outliers=0.2)
     assert noisy.is_outlier.mean() == pytest.approx(0.2)
     inlier = ~noisy.is_outlier
     off_floor = np.minimum(

@@ -96,7 +96,7 @@ def test_lines_of_text(tmp_path, header):
 )
 @pytest.mark.parametrize("ending", ["npz", "csv"])
 def test_corners_without_a_number_are_left_out_and_counted(
-    tmp_path, uv, kept_views, kept_points, said, ending
+    tmp_path, uv, kept_views, *, kept_points, said, ending
 ):
     path = tmp_path / f"c.{ending}"
     if ending == "npz":

@@ -73,7 +73,7 @@ def test_text_in_every_dialect(write, name):
     np.testing.assert_allclose(read_cloud(write(name, TEXTS[name])), P, rtol=1e-7)
 
 
-def ply(kind: str, faces: int = 0, extra: bool = True, p: np.ndarray = P) -> bytes:
+def ply(kind: str, faces: int = 0, extra: bool = True, *, p: np.ndarray = P) -> bytes:
     header = f"ply\nformat {kind} 1.0\ncomment ours\nelement vertex {len(p)}\n"
     header += (
         "property uchar red\n" * extra + "property float x\nproperty double y\nproperty float32 z\n"

@@ -32,21 +32,23 @@ def test_places_lie_on_their_shapes_and_within_their_arc(arc):
 
 @pytest.mark.parametrize("kind", ["independent", "alike in neighbours"])
 def test_errors_have_their_size_whoever_they_agree_with(kind):
-    found = errors(np.random.default_rng(0), (400, 60, 2), 0.3, kind)
+    found = errors(np.random.default_rng(0), (400, 60, 2), 0.3, kind=kind)
     assert found.std() == pytest.approx(0.3, rel=0.02)
     next_one = (found[:, 1:] * found[:, :-1]).mean() / found.var()
     assert next_one == pytest.approx(0.0 if kind == "independent" else 0.9, abs=0.03)
 
 
 def test_outliers_lie_where_they_are_said_to():
-    p, off = outlying_plane(np.random.default_rng(0), 400, 0.01, 0.25, 0.5, both_sides=False)
+    p, off = outlying_plane(
+        np.random.default_rng(0), 400, 0.01, outliers=0.25, reach=0.5, both_sides=False
+    )
     assert off.sum() == 100
     assert 0 <= p[off, 2].min() < p[off, 2].max() <= 0.5
     assert np.abs(p[~off, 2]).max() < 0.05
     assert (
-        outlying_plane(np.random.default_rng(0), 400, 0.01, 0.25, 0.5, both_sides=True)[0][
-            :, 2
-        ].min()
+        outlying_plane(
+            np.random.default_rng(0), 400, 0.01, outliers=0.25, reach=0.5, both_sides=True
+        )[0][:, 2].min()
         < -0.3
     )
 

@@ -49,7 +49,7 @@ def test_the_box_is_so_wide_and_about_the_origin(seed, up: Up, width):
 
 @settings(max_examples=40, deadline=None)
 @given(seed=SEEDS, up=UPS, size=st.floats(1e-3, 1e3), far=st.sampled_from([0.0, 2.0]))
-def test_size_and_place_of_a_file_do_not_show(seed, up: Up, size, far):
+def test_size_and_place_of_a_file_do_not_show(seed, up: Up, size, *, far):
     p = cloud(seed)
     q = size * (p + np.array([3.0, -5.0, 7.0]))
     shown = frame(p, 2.0, up=up, far=far).shown(p)
@@ -58,7 +58,7 @@ def test_size_and_place_of_a_file_do_not_show(seed, up: Up, size, far):
 
 @settings(max_examples=40, deadline=None)
 @given(seed=SEEDS, up=UPS, T=motions(), floor=st.floats(-2.0, 2.0))
-def test_a_motion_goes_along_with_its_points(seed, up: Up, T, floor):
+def test_a_motion_goes_along_with_its_points(seed, up: Up, T, *, floor):
     p = cloud(seed)
     how = frame(p, 1.2, up=up).standing(p, floor)
     np.testing.assert_allclose(

@@ -214,7 +214,7 @@ def test_a_garbled_file_is_a_result_or_one_line(tmp_path, capfd, case):
         ),
     ],
 )
-def test_a_face_that_names_no_vertex_is_told_so(tmp_path, name, content, said):
+def test_a_face_that_names_no_vertex_is_told_so(tmp_path, name, content, *, said):
     (tmp_path / name).write_bytes(content)
     with pytest.raises(InputError, match=said):
         read_mesh(tmp_path / name)

@@ -12,11 +12,11 @@ EVERY = np.repeat(np.arange(len(NAMES)), 20)
 
 
 def test_clouds_are_listed_from_the_lowest_point_and_the_same_for_a_seed():
-    clouds = labelled_clouds(EVERY, 16, "freely", np.random.default_rng(0))
+    clouds = labelled_clouds(EVERY, 16, "freely", rng=np.random.default_rng(0))
     assert clouds.shape == (100, 16, 3)
     assert np.all(np.diff(clouds[:, :, 2], axis=1) >= 0)
     np.testing.assert_array_equal(
-        labelled_clouds(EVERY, 16, "freely", np.random.default_rng(0)), clouds
+        labelled_clouds(EVERY, 16, "freely", rng=np.random.default_rng(0)), clouds
     )
 
 
@@ -24,7 +24,7 @@ def test_points_lie_on_their_surfaces(monkeypatch):
     """Without noise and stretch every shape fulfils its equation, turned about z as it may be."""
     monkeypatch.setattr(labelled_shapes, "NOISE", 0.0)
     monkeypatch.setattr(labelled_shapes, "STRETCH", (1.0, 1.0))
-    clouds = labelled_clouds(EVERY, 40, "about z", np.random.default_rng(1))
+    clouds = labelled_clouds(EVERY, 40, "about z", rng=np.random.default_rng(1))
     r = np.hypot(clouds[..., 0], clouds[..., 1])
     z = clouds[..., 2]
     sphere, box, cylinder, cone, torus = ((r[k == EVERY], z[k == EVERY]) for k in range(5))
@@ -40,7 +40,8 @@ def test_points_lie_on_their_surfaces(monkeypatch):
 def test_shapes_are_turned_about_z_or_freely():
     def heights(turned) -> np.ndarray:
         return np.ptp(
-            labelled_clouds(np.full(60, 4), 200, turned, np.random.default_rng(2))[:, :, 2], axis=1
+            labelled_clouds(np.full(60, 4), 200, turned, rng=np.random.default_rng(2))[:, :, 2],
+            axis=1,
         )
 
     assert heights("about z").max() < 0.6 * 1.2 + 0.2

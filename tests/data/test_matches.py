@@ -32,7 +32,7 @@ def test_arrays_in_their_two_forms(tmp_path, p):
 @pytest.mark.parametrize(
     ("separator", "head"), [(",", "u,v,u2,v2\n"), (" ", "# four numbers\n"), ("\t", "")]
 )
-def test_text_with_and_without_names_and_quality(tmp_path, p, separator, head):
+def test_text_with_and_without_names_and_quality(tmp_path, p, separator, *, head):
     file = tmp_path / "m.csv"
     file.write_text(head + "\n".join(separator.join(map(repr, map(float, row))) for row in p))
     np.testing.assert_array_equal(read_matches(file).p, p)

@@ -11,7 +11,9 @@ from workbench.data.pictures import matched, names_in, pictures_of
 from workbench.errors import InputError
 
 
-def picture(path: Path, level: int = 0, size: tuple[int, int] = (40, 30), turned: int = 1) -> None:
+def picture(
+    path: Path, level: int = 0, size: tuple[int, int] = (40, 30), *, turned: int = 1
+) -> None:
     exif = Image.Exif()
     exif[0x0112] = turned
     Image.new("L", size, level).save(path, exif=exif)

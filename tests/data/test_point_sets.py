@@ -69,7 +69,7 @@ def test_what_is_done_to_a_cloud_is_what_it_says():
 
 def test_blobs_lie_inside_their_radius():
     for flat in (True, False):
-        p = blob(200, 0.3, flat, np.random.default_rng(0)) - np.array([-0.25, 0.0, 0.1])
+        p = blob(200, 0.3, flat, rng=np.random.default_rng(0)) - np.array([-0.25, 0.0, 0.1])
         assert 0.25 < np.linalg.norm(p, axis=1).max() <= 0.3
         assert (np.ptp(p[:, 1]) == 0) == flat
 

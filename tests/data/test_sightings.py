@@ -21,7 +21,7 @@ def test_noise_and_outliers_are_as_many_and_as_large_as_asked_for():
         p,
         T,
         K,
-        np.random.default_rng(1),
+        rng=np.random.default_rng(1),
         sigma=2.0,
         is_outlier=some_of(500, 0.3, np.random.default_rng(2)),
     )
@@ -30,7 +30,7 @@ def test_noise_and_outliers_are_as_many_and_as_large_as_asked_for():
     assert off.std() == pytest.approx(2.0, rel=0.1)
     none = np.zeros(500, bool)
     np.testing.assert_allclose(
-        seen(p, T, K, np.random.default_rng(1), sigma=0.0, is_outlier=none).uv, project(p, T, K)
+        seen(p, T, K, rng=np.random.default_rng(1), sigma=0.0, is_outlier=none).uv, project(p, T, K)
     )
 
 

@@ -27,7 +27,7 @@ from workbench.geometry.cameras.stereo import StereoCamera, depth_from_disparity
 CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 
 
-def made(scene, camera=CAMERA, noise=0.0, seed=0) -> Any:
+def made(scene, camera=CAMERA, noise=0.0, *, seed=0) -> Any:
     return synthetic_views(scene, camera, (160, 120), rng=np.random.default_rng(seed)).exposed(
         noise
     )
@@ -153,12 +153,12 @@ def test_own_pairs(tmp_path):
     for name, picture in (("left.png", pair.left), ("right.png", pair.right)):
         Image.fromarray(picture).save(tmp_path / name)
         Image.fromarray(picture).convert("L").save(tmp_path / f"grey_{name}")
-    own = read_pair(tmp_path / "left.png", tmp_path / "right.png", 150.0, 0.1, 2.0)
+    own = read_pair(tmp_path / "left.png", tmp_path / "right.png", 150.0, baseline=0.1, doffs=2.0)
     assert np.array_equal(own.left, pair.left)
     assert np.array_equal(own.right, pair.right)
     assert own.camera == StereoCamera(150.0, 79.5, 59.5, 0.1, 2.0)
     assert own.disparity is None
-    mixed = read_pair(tmp_path / "left.png", tmp_path / "grey_right.png", 150.0, 0.1)
+    mixed = read_pair(tmp_path / "left.png", tmp_path / "grey_right.png", 150.0, baseline=0.1)
     assert (
         np.abs(grey(mixed.right) - grey(pair.right)).max() <= 0.5 + 1e-6
     )  # colour and grey go together
@@ -176,7 +176,7 @@ def test_files_that_are_no_pair_are_refused_in_one_line(tmp_path, monkeypatch):
 
     def refuse(left, right, words):
         with pytest.raises(InputError, match=words) as caught:
-            read_pair(tmp_path / left, tmp_path / right, 150.0, 0.1)
+            read_pair(tmp_path / left, tmp_path / right, 150.0, baseline=0.1)
         assert "\n" not in str(caught.value)
 
     refuse("a.png", "wide.png", "a.png is 30 x 20 pixels, wide.png 31 x 20")

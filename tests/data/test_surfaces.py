@@ -41,7 +41,7 @@ def implicit(name, p):
     return F(*p.T), gradient
 
 
-def normal_curvature(name, p, direction, h=1e-4):
+def normal_curvature(name, p, direction, *, h=1e-4):
     """How fast the unit gradient turns in a direction: n'(t) . t, by central differences."""
     unit = lambda p: (lambda g: g / np.linalg.norm(g, axis=1, keepdims=True))(implicit(name, p)[1])  # noqa: E731
     return np.einsum("vx,vx->v", unit(p + h * direction) - unit(p - h * direction), direction) / (

@@ -14,7 +14,7 @@ from workbench.geometry.motions import apply, exp_so3, inverse
 from workbench.geometry.two_views.epipolar import fundamental_from_cameras, sampson_distances
 
 
-def street(what: What = "street", count=60, sigma=0.0, baseline=1.0, heading=0.0, seed=0):
+def street(what: What = "street", count=60, sigma=0.0, *, baseline=1.0, heading=0.0, seed=0):
     return made_views(
         what, count, sigma, baseline=baseline, heading=heading, rng=np.random.default_rng(seed)
     )

@@ -8,7 +8,7 @@ FRAME = (204, 121, 167)
 
 
 def windows(left, right, uv):
-    return side_by_side(left, right, uv, 4, 5, frame=FRAME)
+    return side_by_side(left, right, uv, d=4, window=5, frame=FRAME)
 
 
 def test_the_windows_are_the_pixels_of_both_pictures():
@@ -30,4 +30,4 @@ def test_the_windows_are_the_pixels_of_both_pictures():
 
 def test_a_frame_that_is_outside_changes_nothing():
     picture = np.zeros((20, 30, 3), np.uint8)
-    assert np.array_equal(framed(picture, (-50, 5), 3, FRAME), picture)
+    assert np.array_equal(framed(picture, (-50, 5), 3, frame=FRAME), picture)

@@ -80,7 +80,7 @@ def changed(exercise: Exercise, *, table: bool) -> Iterator[Changed]:
             if (module.__name__, part) not in done:
                 done.add((module.__name__, part))
                 for mutant in mutants(parts[part], arguments=part == name):
-                    function = _made(module, parts, name, mutant)
+                    function = _made(module, parts, name, mutant=mutant)
                     if function is not None:
                         yield Changed(exercise, mutant, vars(module)[name], function)
 
@@ -110,7 +110,7 @@ def _used(parts: dict[str, ast.FunctionDef], name: str) -> list[str]:
 
 
 def _made(
-    module: ModuleType, parts: dict[str, ast.FunctionDef], name: str, mutant: Mutant
+    module: ModuleType, parts: dict[str, ast.FunctionDef], name: str, *, mutant: Mutant
 ) -> Function | None:
     """Return the function with the change; None where the change is no Python."""
     space = dict(vars(module)) | HELPERS
@@ -215,9 +215,9 @@ def differs(one: Changed) -> tuple[Any, ...] | None:
     for args, right in agreed(one.exercise):
         if time.process_time() > until:
             break
-        if not _is_right(one.right, args, right, one.exercise):
+        if not _is_right(one.right, args, right, exercise=one.exercise):
             continue
-        if not _is_right(limited(one.function), args, right, one.exercise, kind):
+        if not _is_right(limited(one.function), args, right, exercise=one.exercise, kind=kind):
             return args
     return None
 
@@ -226,6 +226,7 @@ def _is_right(
     function: Function,
     args: tuple[Any, ...],
     right: Any,
+    *,
     exercise: Exercise,
     kind: type[np.float32] | None = None,
 ) -> bool:

@@ -107,7 +107,7 @@ def mutants(function: ast.FunctionDef, *, arguments: bool) -> Iterator[Mutant]:
             for k, node in list(enumerate(value if isinstance(value, list) else [value])):
                 if isinstance(node, ast.AST):
                     yield from _at(
-                        function, parent, field, k if isinstance(value, list) else None, node
+                        function, parent, field, k=k if isinstance(value, list) else None, node=node
                     )
     for operator, line in (
         _of_arguments([arg.arg for arg in function.args.args]) if arguments else ()
@@ -119,20 +119,20 @@ def mutants(function: ast.FunctionDef, *, arguments: bool) -> Iterator[Mutant]:
 
 
 def _at(
-    function: ast.FunctionDef, parent: ast.AST, field: str, k: int | None, node: ast.AST
+    function: ast.FunctionDef, parent: ast.AST, field: str, *, k: int | None, node: ast.AST
 ) -> Iterator[Mutant]:
     """Yield the function with each change of one node."""
     for operator, new in changes(node):
         old = ast.unparse(node)
-        _put(parent, field, k, new)
+        _put(parent, field, k, node=new)
         source = ast.unparse(ast.fix_missing_locations(function))
         change = f"{_short(old)} → {_short(ast.unparse(new))}"
-        _put(parent, field, k, node)
+        _put(parent, field, k, node=node)
         if ast.unparse(new) != old:
             yield Mutant(function.name, operator, change, source)
 
 
-def _put(parent: ast.AST, field: str, k: int | None, node: ast.AST) -> None:
+def _put(parent: ast.AST, field: str, k: int | None, *, node: ast.AST) -> None:
     if k is None:
         setattr(parent, field, node)
     else:

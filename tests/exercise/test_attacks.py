@@ -191,7 +191,7 @@ def tried(student: SandboxedFunction, argument: np.ndarray) -> Any:
 
 
 @pytest.mark.parametrize("name", TOGETHER, ids=ids(TOGETHER))
-def test_it_gets_nothing_and_harms_nobody(teacher, wall, attempting, name):
+def test_it_gets_nothing_and_harms_nobody(teacher, wall, attempting, *, name):
     before, other = teacher.seen(), teacher.other()
     got = tried(attempting, np.array(list(TOGETHER).index(name)))
     if wall.name != "user" or name not in attacks.OPEN_TO_USERS:

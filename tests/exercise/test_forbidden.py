@@ -64,7 +64,7 @@ def read(text: str, modules: dict[str, str] | None = None) -> Submission:
             "my_centroid.py",
             text.encode(),
             lambda file: (beside(file) or "").encode() or None,
-            reader,
+            reader=reader,
         )
 
 

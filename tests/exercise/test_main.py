@@ -19,7 +19,7 @@ def as_it_was(monkeypatch):
 
 def test_of_an_error_inside_a_helper_the_innermost_line_of_the_file_is_told():
     source = "def helper(p):\n    return p[99]\n\ndef f(p):\n    return helper(p)\n"
-    function = load(source, "my.py", "f", {})
+    function = load(source, "my.py", "f", modules={})
     with pytest.raises(IndexError) as caught:
         function([])
     assert told(caught.value, "my.py") == {
@@ -43,7 +43,7 @@ def test_an_exception_that_cannot_say_anything_says_nothing():
 def test_a_text_that_is_no_python_is_told_with_its_line():
     for source, line in (("x = 1\n\nx = = 2", 3), ("def f():\n    return 1 +", 2)):
         with pytest.raises(SyntaxError) as caught:
-            load(source, "my.py", "f", {})
+            load(source, "my.py", "f", modules={})
         assert told(caught.value, "my.py")["line"] == line
         assert told(caught.value, "other.py")["line"] == 0
 
@@ -51,16 +51,16 @@ def test_a_text_that_is_no_python_is_told_with_its_line():
 def test_a_file_must_define_the_function():
     for source in ("x = 1", "f = 1"):
         with pytest.raises(NameError, match=r"^the file defines no function f$"):
-            load(source, "my.py", "f", {})
+            load(source, "my.py", "f", modules={})
     source = "def f():\n    return __file__, __name__"
-    assert load(source, "my.py", "f", {})() == ("my.py", "student")
+    assert load(source, "my.py", "f", modules={})() == ("my.py", "student")
 
 
 def test_modules_beside_the_file_are_imported_before_any_others():
     beside = {"zipapp": "import other\nname = other.name + __file__", "other": "name = 'x '"}
     source = "import zipapp\ndef f():\n    return zipapp.name"
     try:
-        assert load(source, "my.py", "f", beside)() == "x zipapp.py"
+        assert load(source, "my.py", "f", modules=beside)() == "x zipapp.py"
     finally:
         for name in beside:
             sys.modules.pop(name, None)
@@ -73,9 +73,9 @@ def test_modules_beside_the_file_are_imported_before_any_others():
 def test_a_page_gives_a_file_its_own_builtins():
     source = "def f(x):\n    return len(x)"
     with pytest.raises(NameError):
-        load(source, "my.py", "f", {}, names={})([1])
-    assert load(source, "my.py", "f", {}, names={"len": lambda x: 7})([1]) == 7
-    assert load(source, "my.py", "f", {})([1]) == builtins.len([1])
+        load(source, "my.py", "f", modules={}, names={})([1])
+    assert load(source, "my.py", "f", modules={}, names={"len": lambda x: 7})([1]) == 7
+    assert load(source, "my.py", "f", modules={})([1]) == builtins.len([1])
 
 
 def test_packages_are_found_in_their_folders_and_ours_never():

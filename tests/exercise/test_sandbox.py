@@ -301,7 +301,7 @@ def test_a_cheat_earns_nothing(tmp_path, name):
         ("import os; os._exit(1)", "died", "ended its process"),
     ],
 )
-def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, said):
+def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, *, said):
     given = written(tmp_path, body).submission
     with SandboxedFunction(given, "centroid", seconds=5.0, budget=CallBudget(5.0)) as student:
         began = time.monotonic()

@@ -120,7 +120,7 @@ class Reads:
 
 def test_modules_beside_a_file_are_read_with_it_up_to_twenty():
     there = {"a.py": b"b a", "b.py": b"a c", **{f"m{k}.py": b"none" for k in range(30)}}
-    found = submission("my.py", b"numpy a", there.get, Reads())
+    found = submission("my.py", b"numpy a", there.get, reader=Reads())
     assert found.modules == {"a": "b a", "b": "a c"}
     assert (found.file, found.source, found.said, found.defines) == (
         "my.py",
@@ -131,6 +131,6 @@ def test_modules_beside_a_file_are_read_with_it_up_to_twenty():
     assert found.parts == found.extra_files["a"]
     assert found.parts[0].uses == (("numpy", 3),)
     many = " ".join(f"m{k}" for k in range(30)).encode()
-    assert list(submission("my.py", many, there.get, Reads()).modules) == [
+    assert list(submission("my.py", many, there.get, reader=Reads()).modules) == [
         f"m{k}" for k in range(20)
     ]

@@ -22,7 +22,7 @@ def syscalls() -> Iterator[ModuleType]:
         sys.modules.pop("syscalls")
 
 
-def answered(program: bytes, architecture: int, number: int, words: tuple[int, ...] = ()) -> int:
+def answered(program: bytes, architecture: int, number: int, *, words: tuple[int, ...] = ()) -> int:
     """Return what a filter says of a call.
 
     Source: Linux, Documentation/userspace-api/seccomp_filter.rst; struct seccomp_data,
@@ -62,7 +62,9 @@ def test_what_is_on_the_list_is_allowed_and_nothing_else(syscalls, machine, writ
     }
     hostile = (0xDEADBEEF,) * 12
     for number in [*range(1000), 0x40000000, 0x40000001, 0xFFFFFFFF]:
-        assert (answered(program, architecture, number, hostile) == ALLOWED) == (number in numbers)
+        assert (answered(program, architecture, number, words=hostile) == ALLOWED) == (
+            number in numbers
+        )
         assert answered(program, 0x40000003, number) != ALLOWED  # the machine's older half, 32 bits
         if number not in numbers | bound:
             assert answered(program, architecture, number) == (
@@ -118,12 +120,12 @@ CASES = [  # a call, its arguments, whether it is allowed
 
 @pytest.mark.parametrize("machine", MACHINES)
 @pytest.mark.parametrize(("name", "arguments", "may"), CASES)
-def test_arguments_are_looked_at(syscalls, machine, name, arguments, may):
+def test_arguments_are_looked_at(syscalls, machine, name, *, arguments, may):
     column, architecture = syscalls.MACHINES[machine]
     program = syscalls.program(machine, writes=True)
     words = tuple(half for value in arguments for half in (value & 0xFFFFFFFF, value >> 32))
     number = syscalls.MAY_IF[name][0][column]
-    assert answered(program, architecture, number, words) == (ALLOWED if may else 0x50001)
+    assert answered(program, architecture, number, words=words) == (ALLOWED if may else 0x50001)
 
 
 @pytest.mark.parametrize("machine", MACHINES)
@@ -142,7 +144,7 @@ def test_where_it_has_no_folder_it_opens_to_read_alone(syscalls, machine):
             (0x200, 1),
             (0x410002, 1),
         ):
-            got = answered(program, architecture, number, (0, 0, 0, 0, flags, 0))
+            got = answered(program, architecture, number, words=(0, 0, 0, 0, flags, 0))
             assert (got == ALLOWED) == (writes or not changing)
 
 

@@ -31,7 +31,7 @@ def test_its_runs_come_to_their_ends(lesson):
 
 def test_its_questions_are_answered(lesson):
     for question in lesson.questions:
-        assert answer(lesson, question, None, Timelines()).why
+        assert answer(lesson, question, None, timelines=Timelines()).why
 
 
 def test_its_exercise_is_graded(lesson):

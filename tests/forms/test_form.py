@@ -68,7 +68,7 @@ def test_slots_that_run_passes_on_are_named():
 
 
 def test_a_question_reads_params_and_subject():
-    told = answer(lesson, lesson.questions[0], 0.25, Timelines())
+    told = answer(lesson, lesson.questions[0], 0.25, timelines=Timelines())
     assert told.right is False
     assert told.value == 8 / 64
     assert told.why == "8 of 64 points are."

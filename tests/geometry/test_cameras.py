@@ -104,7 +104,9 @@ def test_the_camera_centre_is_where_the_camera_takes_to_its_origin(seed):
 
 @settings(max_examples=20, deadline=None)
 @given(seed=seeds, left=st.floats(-50, 300), top=st.floats(-50, 300), scale=st.floats(0.1, 4))
-def test_crop_shifts_pixels_and_resize_scales_them_about_the_picture_edge(seed, left, top, scale):
+def test_crop_shifts_pixels_and_resize_scales_them_about_the_picture_edge(
+    seed, left, top, *, scale
+):
     rng = np.random.default_rng(seed)
     p = seen_points(rng, np.eye(4))
     uv = project(p, np.eye(4), K, LENS)
@@ -166,7 +168,7 @@ def test_orthographic_is_the_limit_of_the_dolly_at_rate_one_over_factor():
     K_flat[:2, :2] /= depth
     flat = project_orthographic(p_world, T_camera_world, K_flat)
     gap = [
-        np.abs(project(p_world, *dolly(T_camera_world, K, depth, factor)) - flat).max()
+        np.abs(project(p_world, *dolly(T_camera_world, K, depth, factor=factor)) - flat).max()
         for factor in (1, 10, 100, 1000)
     ]
     assert gap[0] > 20
@@ -183,7 +185,7 @@ def test_the_dolly_keeps_every_point_of_the_subjects_plane(factor):
     p_camera = np.column_stack([rng.uniform(-1, 1, (20, 2)), np.full(20, 3.0)])
     p_world = apply(inverse(T_camera_world), p_camera)
     before = project(p_world, T_camera_world, K)
-    after = project(p_world, *dolly(T_camera_world, K, 3.0, factor))
+    after = project(p_world, *dolly(T_camera_world, K, 3.0, factor=factor))
     np.testing.assert_allclose(after, before, atol=1e-8)
 
 

@@ -71,9 +71,15 @@ def test_one_sign_has_no_surface(values):
 
 def test_lines_lie_where_the_field_has_their_values():
     x, y = np.meshgrid(np.linspace(-2, 2, 81), np.linspace(-1, 3, 81))
-    ends = level_lines(np.hypot(x, y - 1), np.array([0.5, 1.0]), np.array([-2.0, -1.0]), 0.05)
+    ends = level_lines(
+        np.hypot(x, y - 1), np.array([0.5, 1.0]), np.array([-2.0, -1.0]), spacing=0.05
+    )
     away = np.hypot(ends[..., 0], ends[..., 1] - 1)
     np.testing.assert_allclose(np.abs(away - 0.75), 0.25, atol=1e-3)
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     assert lengths.sum() == pytest.approx(2 * np.pi * 1.5, rel=1e-3)
-    assert level_lines(np.hypot(x, y), np.array([99.0]), np.zeros(2), 1.0).shape == (0, 2, 2)
+    assert level_lines(np.hypot(x, y), np.array([99.0]), np.zeros(2), spacing=1.0).shape == (
+        0,
+        2,
+        2,
+    )

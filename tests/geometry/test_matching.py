@@ -55,7 +55,7 @@ def test_what_cannot_be_matched_is_refused():
         matching.nearest_both_ways(np.zeros((0, 3)), np.zeros((2, 3)))
     near = matching.nearest_both_ways(np.eye(3), np.eye(3))
     with pytest.raises(ValueError, match="one index"):
-        matching.filtered(near, "both", 0.9, np.array([0, 1, 3]))
+        matching.filtered(near, "both", 0.9, mutual=np.array([0, 1, 3]))
 
 
 def test_the_response_turns_with_the_picture_and_edges_are_negative():

@@ -42,7 +42,7 @@ def all_pixels(width: int = WIDTH, height: int = HEIGHT) -> np.ndarray:
 
 
 def cast(
-    p: np.ndarray, faces: np.ndarray, T_camera_world: np.ndarray, lens: Distortion, near: float
+    p: np.ndarray, faces: np.ndarray, T_camera_world: np.ndarray, *, lens: Distortion, near: float
 ):
     """On every pixel's ray the depth of the nearest triangle, how safely it is hit or missed, and
     which (-1: none).
@@ -83,8 +83,16 @@ def test_depth_is_what_a_ray_through_each_pixel_meets(seed, lens):
     faces = np.arange(12).reshape(4, 3)
     colors = rng.integers(0, 255, (4, 3)).astype(np.uint8)
     near = 0.3
-    image = render([MeshItem(p, faces, colors)], T_camera_world, K, WIDTH, HEIGHT, lens, near=near)
-    depth, margin, which = cast(p, faces, T_camera_world, lens, near)
+    image = render(
+        [MeshItem(p, faces, colors)],
+        T_camera_world,
+        K,
+        width=WIDTH,
+        height=HEIGHT,
+        distortion=lens,
+        near=near,
+    )
+    depth, margin, which = cast(p, faces, T_camera_world, lens=lens, near=near)
     if lens is NONE:
         sure = margin > 1e-4  # a pixel whose centre is not on an edge
         assert sure.mean() > 0.9
@@ -109,7 +117,7 @@ def test_a_floor_under_the_camera_fills_every_pixel_below_the_horizon(lens):
     T_camera_world = look_at(np.array([0.0, 0.0, 1.5]), np.array([0.0, 10.0, 0.5]))
     p = np.array([[-100.0, -100, 0], [100, -100, 0], [100, 100, 0], [-100, 100, 0]])
     item = MeshItem(p, np.array([[0, 1, 2], [0, 2, 3]]), np.concatenate([RED, BLUE]))
-    image = render([item], T_camera_world, K, WIDTH, HEIGHT, lens)
+    image = render([item], T_camera_world, K, width=WIDTH, height=HEIGHT, distortion=lens)
     origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     with np.errstate(divide="ignore"):
         hit = origin - origin[2] / n_world[:, 2:] * n_world
@@ -128,7 +136,12 @@ def test_the_ball_of_the_street_is_seen_at_the_depth_of_a_sphere(lens):
     T_camera_world = look_at(np.array([0.5, -0.5, 1.6]), BALL_CENTER)
     ball = street().solids["ball"]
     image = render(
-        [MeshItem(ball.p_world, ball.faces, ball.colors)], T_camera_world, K, WIDTH, HEIGHT, lens
+        [MeshItem(ball.p_world, ball.faces, ball.colors)],
+        T_camera_world,
+        K,
+        width=WIDTH,
+        height=HEIGHT,
+        distortion=lens,
     )
     origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     along = n_world @ (BALL_CENTER - origin)
@@ -146,7 +159,9 @@ def test_the_ball_of_the_street_is_seen_at_the_depth_of_a_sphere(lens):
 def test_points_land_on_the_pixel_that_project_names(seed, lens):
     rng = np.random.default_rng(seed)
     p = np.array([[0.0, 0.0, 1.0]]) * rng.uniform(1, 9) + rng.uniform(-0.3, 0.3, (1, 3))
-    image = render([PointItem(p, RED, width=1)], np.eye(4), K, WIDTH, HEIGHT, lens)
+    image = render(
+        [PointItem(p, RED, width=1)], np.eye(4), K, width=WIDTH, height=HEIGHT, distortion=lens
+    )
     v, u = np.nonzero(np.isfinite(image.depth))
     np.testing.assert_array_equal(np.column_stack([u, v]), np.rint(project(p, np.eye(4), K, lens)))
     assert image.depth[v, u] == pytest.approx(p[0, 2])
@@ -155,14 +170,16 @@ def test_points_land_on_the_pixel_that_project_names(seed, lens):
 
 def test_points_behind_the_camera_and_near_it_are_not_drawn():
     p = np.array([[0.0, 0.0, -2.0], [0.0, 0.0, 0.04], [0.0, 0.0, 0.0]])
-    image = render([PointItem(p, np.tile(RED, (3, 1)))], np.eye(4), K, WIDTH, HEIGHT)
+    image = render([PointItem(p, np.tile(RED, (3, 1)))], np.eye(4), K, width=WIDTH, height=HEIGHT)
     assert np.isinf(image.depth).all()
 
 
 @pytest.mark.parametrize("lens", [NONE, BARREL])
 def test_a_segment_is_an_unbroken_line_on_its_projected_points(lens):
     ends = np.array([[[-1.0, -0.5, 2.0], [1.5, 1.0, 4.0]]])
-    image = render([SegmentItem(ends, RED)], np.eye(4), K, WIDTH, HEIGHT, lens)
+    image = render(
+        [SegmentItem(ends, RED)], np.eye(4), K, width=WIDTH, height=HEIGHT, distortion=lens
+    )
     share = np.linspace(0, 1, 400)[:, None]
     u, v = np.floor(
         project((1 - share) * ends[0, 0] + share * ends[0, 1], np.eye(4), K, lens) + 0.5
@@ -177,7 +194,7 @@ def test_a_segment_is_an_unbroken_line_on_its_projected_points(lens):
 def test_a_rail_that_starts_behind_the_camera_is_cut_at_the_near_plane():
     T_camera_world = look_at(np.array([0.0, 0.0, 1.5]), np.array([0.0, 10.0, 1.5]))
     rail = np.array([[[0.75, -50.0, 0.0], [0.75, 50.0, 0.0]]])
-    image = render([SegmentItem(rail, RED)], T_camera_world, K, WIDTH, HEIGHT)
+    image = render([SegmentItem(rail, RED)], T_camera_world, K, width=WIDTH, height=HEIGHT)
     v, u = np.nonzero(np.isfinite(image.depth))
     assert v.min() > 23  # below the horizon, although its far half alone divides to rows above it
     assert v.max() == HEIGHT - 1
@@ -190,23 +207,27 @@ def test_the_nearer_of_two_wins_whatever_the_order_and_lines_win_from_their_surf
     near = MeshItem(square + np.array([0, 0, 3.0]), faces, np.tile(RED, (2, 1)))
     far = MeshItem(square * 2 + np.array([0, 0, 4.0]), faces, np.tile(BLUE, (2, 1)))
     for items in ([near, far], [far, near]):
-        image = render(items, np.eye(4), K, WIDTH, HEIGHT)
+        image = render(items, np.eye(4), K, width=WIDTH, height=HEIGHT)
         np.testing.assert_array_equal(image.colors[24, 32], RED[0])
         np.testing.assert_array_equal(image.colors[24, 12], BLUE[0])
     line = SegmentItem(np.array([[[-1.0, 0, 3], [1, 0, 3]]]), BLUE)
-    image = render([line, near], np.eye(4), K, WIDTH, HEIGHT)
+    image = render([line, near], np.eye(4), K, width=WIDTH, height=HEIGHT)
     np.testing.assert_array_equal(image.colors[24, 32], BLUE[0])
     assert image.depth[24, 32] == pytest.approx(3.0)
     hidden = SegmentItem(line.p_world + np.array([0, 0, 0.1]), BLUE)
     np.testing.assert_array_equal(
-        render([hidden, near], np.eye(4), K, WIDTH, HEIGHT).colors[24, 32], RED[0]
+        render([hidden, near], np.eye(4), K, width=WIDTH, height=HEIGHT).colors[24, 32], RED[0]
     )
 
 
 def test_widths_are_in_pixels():
     for width in (1, 2, 3, 5):
         image = render(
-            [PointItem(np.array([[0.0, 0.0, 2.0]]), RED, width)], np.eye(4), K, WIDTH, HEIGHT
+            [PointItem(np.array([[0.0, 0.0, 2.0]]), RED, width)],
+            np.eye(4),
+            K,
+            width=WIDTH,
+            height=HEIGHT,
         )
         assert np.isfinite(image.depth).any(axis=0).sum() == width
         assert np.isfinite(image.depth).any(axis=1).sum() == width
@@ -215,18 +236,23 @@ def test_widths_are_in_pixels():
 def test_a_given_camera_model_draws_instead():
     """The picture needs nothing of the camera but a function from world points to pixels."""
     item = MeshItem(np.array([[0.0, 0, 2], [1, 0, 2], [0, 1, 2]]), np.array([[0, 1, 2]]), RED)
-    ours = render([item], np.eye(4), K, WIDTH, HEIGHT)
+    ours = render([item], np.eye(4), K, width=WIDTH, height=HEIGHT)
     shifted = render(
         [item],
         np.eye(4),
         K,
-        WIDTH,
-        HEIGHT,
+        width=WIDTH,
+        height=HEIGHT,
         to_pixels=lambda p: project(p, np.eye(4), K) - np.array([10.0, 5.0]),
     )
     np.testing.assert_array_equal(shifted.colors[:-5, :-10], ours.colors[5:, 10:])
     nowhere = render(
-        [item], np.eye(4), K, WIDTH, HEIGHT, to_pixels=lambda p: np.full((len(p), 2), np.nan)
+        [item],
+        np.eye(4),
+        K,
+        width=WIDTH,
+        height=HEIGHT,
+        to_pixels=lambda p: np.full((len(p), 2), np.nan),
     )
     assert np.isinf(nowhere.depth).all()
 
@@ -236,7 +262,7 @@ def test_a_lens_that_folds_leaves_its_dark_rim_empty():
     T_camera_world = look_at(np.array([0.0, 0.0, 5.0]), np.zeros(3))
     p = np.array([[-100.0, -100, 0], [100, -100, 0], [100, 100, 0], [-100, 100, 0]])
     item = MeshItem(p, np.array([[0, 1, 2], [0, 2, 3]]), np.concatenate([RED, RED]))
-    image = render([item], T_camera_world, K, WIDTH, HEIGHT, lens)
+    image = render([item], T_camera_world, K, width=WIDTH, height=HEIGHT, distortion=lens)
     _, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     blind = np.isnan(n_world[:, 0]).reshape(HEIGHT, WIDTH)
     assert 0.1 < blind.mean() < 0.9
@@ -249,7 +275,7 @@ def same(a: Image, b: Image) -> bool:
 
 
 def test_nothing_and_degenerate_things_leave_the_background():
-    empty = render([], np.eye(4), K, WIDTH, HEIGHT, background=(1, 2, 3))
+    empty = render([], np.eye(4), K, width=WIDTH, height=HEIGHT, background=(1, 2, 3))
     assert (empty.colors == np.array([1, 2, 3])).all()
     assert np.isinf(empty.depth).all()
     flat = np.array([[0.0, 0, 2], [1, 0, 2], [2, 0, 2]])
@@ -267,19 +293,32 @@ def test_nothing_and_degenerate_things_leave_the_background():
     for lens in (NONE, BARREL):
         for item in nothing:
             assert same(
-                render([item], np.eye(4), K, WIDTH, HEIGHT, lens, background=(1, 2, 3)), empty
+                render(
+                    [item],
+                    np.eye(4),
+                    K,
+                    width=WIDTH,
+                    height=HEIGHT,
+                    distortion=lens,
+                    background=(1, 2, 3),
+                ),
+                empty,
             ), item
     dot = render(
-        [SegmentItem(np.array([[[0.0, 0, 2], [0, 0, 2]]]), RED)], np.eye(4), K, WIDTH, HEIGHT
+        [SegmentItem(np.array([[[0.0, 0, 2], [0, 0, 2]]]), RED)],
+        np.eye(4),
+        K,
+        width=WIDTH,
+        height=HEIGHT,
     )
     assert np.isfinite(dot.depth).sum() == 1
 
 
 def test_a_picture_needs_pixels_and_a_near_plane_ahead():
     with pytest.raises(ValueError, match="pixel"):
-        render([], np.eye(4), K, 0, 10)
+        render([], np.eye(4), K, width=0, height=10)
     with pytest.raises(ValueError, match="near"):
-        render([], np.eye(4), K, 10, 10, near=0.0)
+        render([], np.eye(4), K, width=10, height=10, near=0.0)
 
 
 @settings(max_examples=50, deadline=None)
@@ -332,7 +371,7 @@ def test_the_street_is_drawn_whole_and_its_camera_sees_its_parts():
     T_camera_world = look_at(np.array([0.5, -3.0, 1.7]), np.array([0.3, 8.0, 1.0]))
     K_street = intrinsics(260.0, 159.5, 119.5)
     items = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()]
-    image = render(items, T_camera_world, K_street, 320, 240)
+    image = render(items, T_camera_world, K_street, width=320, height=240)
     for p in scene.points[:3, None]:
         u, v = np.rint(project(p, T_camera_world, K_street))[0].astype(int)
         assert np.nanmin(image.depth[v - 2 : v + 3, u - 2 : u + 3]) == pytest.approx(
@@ -354,7 +393,7 @@ def test_points_in_sight_are_those_that_nothing_stands_before():
         p,
         T_camera_world,
         K_street,
-        depth=render(street_items(), T_camera_world, K_street, 320, 240).depth,
+        depth=render(street_items(), T_camera_world, K_street, width=320, height=240).depth,
     )
     a, b, c = np.concatenate(
         [one.p_world[one.faces] for one in street().solids.values()]

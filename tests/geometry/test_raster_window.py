@@ -12,7 +12,7 @@ from workbench.geometry.cameras.raster import MeshItem, SegmentItem, _window, re
 
 def test_without_a_lens_it_is_the_picture_s_rectangle():
     K = intrinsics(40.0, 31.5, 20.5, fy=30.0)
-    low, high = _window(K, 64, 48, NONE)
+    low, high = _window(K, 64, 48, distortion=NONE)
     np.testing.assert_allclose(low, [(-0.5 - 31.5) / 40.0, (-0.5 - 20.5) / 30.0])
     np.testing.assert_allclose(high, [(63.5 - 31.5) / 40.0, (47.5 - 20.5) / 30.0])
 
@@ -21,7 +21,11 @@ def test_a_segment_is_as_far_away_as_its_points():
     K = intrinsics(50.0, 31.5, 23.5)
     ends = np.array([[-0.5, 0.0, 2.0], [1.0, 0.0, 4.0]])
     image = render(
-        [SegmentItem(ends[None], np.array([[9, 9, 9]], np.uint8), 1)], np.eye(4), K, 64, 48
+        [SegmentItem(ends[None], np.array([[9, 9, 9]], np.uint8), 1)],
+        np.eye(4),
+        K,
+        width=64,
+        height=48,
     )
     v, u = np.nonzero(np.isfinite(image.depth))
     assert len(np.unique(u)) > 20
@@ -39,4 +43,6 @@ def test_of_two_meshes_in_one_plane_the_later_wins_however_they_are_cut(lens, di
         MeshItem(p, np.array(faces), np.full((2, 3), value, np.uint8))
         for faces, value in (([[0, 1, 2], [0, 2, 3]], 100), (diagonal, 200))
     ]
-    assert (render(items, np.eye(4), K, 160, 120, lens).colors[..., 0] == 200).all()
+    assert (
+        render(items, np.eye(4), K, width=160, height=120, distortion=lens).colors[..., 0] == 200
+    ).all()

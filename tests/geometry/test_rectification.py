@@ -65,7 +65,13 @@ def test_pictures_grow_and_tear_on_the_way_ahead():
     assert np.isinf(grown[4:]).all()
     assert torn(rectify(beside(72), K, K).H_first, SIZE)
     with pytest.raises(ValueError, match="torn"):
-        fitted(rectify(beside(72), K, K).H_first, np.eye(3), SIZE, SIZE, size=(320, 200))
+        fitted(
+            rectify(beside(72), K, K).H_first,
+            np.eye(3),
+            size_first=SIZE,
+            size_second=SIZE,
+            size=(320, 200),
+        )
 
 
 def test_no_baseline_and_one_along_the_axis_are_refused():
@@ -82,7 +88,7 @@ def test_fitted_pictures_are_inside_and_keep_their_rows(seed):
     found = rectify(T, K, L)
     if torn(found.H_first, SIZE) or torn(found.H_second, SIZE):
         return
-    H, G = fitted(found.H_first, found.H_second, SIZE, SIZE, size=(400, 300))
+    H, G = fitted(found.H_first, found.H_second, size_first=SIZE, size_second=SIZE, size=(400, 300))
     corners = np.array([[-0.5, -0.5], [1023.5, -0.5], [1023.5, 682.5], [-0.5, 682.5]])
     for one in (H, G):
         uv = transform_pixels(one, corners)

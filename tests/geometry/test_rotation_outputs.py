@@ -28,7 +28,7 @@ every = pytest.mark.parametrize(
 
 
 def differences(
-    representation: Representation, y: np.ndarray, slope: np.ndarray, h: float = 1e-6
+    representation: Representation, y: np.ndarray, slope: np.ndarray, *, h: float = 1e-6
 ) -> np.ndarray:
     """The gradient of sum(slope * decode(y)) by central differences."""
     found = np.empty_like(y)

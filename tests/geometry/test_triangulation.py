@@ -41,7 +41,7 @@ def test_covariances_are_what_repetition_shows():
     rng = np.random.default_rng(0)
     uv = [np.divide(*np.split(p_h, [2])) for p_h in (P @ [*p, 1], Q @ [*p, 1])]
     found = triangulate(P, Q, *(x + sigma * rng.normal(size=(n, 2)) for x in uv))
-    predicted = triangulation_covariances(P, Q, p[None], sigma)[0]
+    predicted = triangulation_covariances(P, Q, p[None], sigma=sigma)[0]
     np.testing.assert_allclose(np.cov(found.T), predicted, atol=0.06 * predicted[2, 2])
     assert np.sqrt(predicted[2, 2]) == pytest.approx(
         8**2 / 900 * sigma * np.sqrt(2), rel=0.02
@@ -75,9 +75,9 @@ def test_parallel_rays_have_no_point_and_no_covariance():
     far = triangulate(P, Q, uv, uv)
     assert not np.isfinite(far).all() or np.abs(far).max() > 1e9
     assert not np.isfinite(midpoints(T, normalize(uv, K), normalize(uv, K))).any()
-    assert np.isnan(triangulation_covariances(P, Q, np.array([[0.0, 0.0, 1e12]]), 1.0)).all()
+    assert np.isnan(triangulation_covariances(P, Q, np.array([[0.0, 0.0, 1e12]]), sigma=1.0)).all()
     assert not before_both(np.array([[np.nan] * 3, [0, 0, -1.0]]), np.eye(4)).any()
-    assert triangulation_covariances(P, Q, np.empty((0, 3)), 1.0).shape == (0, 3, 3)
+    assert triangulation_covariances(P, Q, np.empty((0, 3)), sigma=1.0).shape == (0, 3, 3)
 
 
 def test_opencv_triangulates_alike():

@@ -70,11 +70,13 @@ def test_weights_of_thin_fog_keep_their_digits():
 
 def test_samples_lie_in_equal_parts_of_the_way():
     p, d = np.array([[1.0, 2.0], [0, 0]]), np.array([[0.6, 0.8], [0, 1]])
-    q, spacing = samples_on(p, d, (1.0, 3.0), 4)
+    q, spacing = samples_on(p, d, (1.0, 3.0), count=4)
     assert spacing == 0.5
     np.testing.assert_allclose(
         np.linalg.norm(q - p[:, None], axis=2), np.tile([1.25, 1.75, 2.25, 2.75], (2, 1))
     )
-    shifted, _ = samples_on(p, d, (1.0, 3.0), 4, np.random.default_rng(0).random((2, 4)))
+    shifted, _ = samples_on(
+        p, d, (1.0, 3.0), count=4, shift=np.random.default_rng(0).random((2, 4))
+    )
     t = np.linalg.norm(shifted - p[:, None], axis=2)
     assert np.all(np.floor((t - 1) / spacing) == np.arange(4))

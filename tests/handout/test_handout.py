@@ -73,7 +73,7 @@ def gradescope(tmp_path_factory):
     return out
 
 
-def scored(gradescope: Path, python: str, root: Path, submitted: dict[str, str] | Path) -> dict:
+def scored(gradescope: Path, python: str, root: Path, *, submitted: dict[str, str] | Path) -> dict:
     """Return what a submission's results.json says; it is there, and is what Gradescope
     documents.
     """
@@ -109,8 +109,10 @@ def test_the_zip_has_what_gradescope_asks_for_at_its_root(gradescope):
 
 
 @pytest.mark.parametrize(("sample", "score"), [("full", 43), ("none", 0)])
-def test_gradescope_gives_the_samples_what_they_deserve(gradescope, bare, tmp_path, sample, score):
-    found = scored(gradescope, bare, tmp_path, gradescope / "teacher" / sample)
+def test_gradescope_gives_the_samples_what_they_deserve(
+    gradescope, bare, tmp_path, *, sample, score
+):
+    found = scored(gradescope, bare, tmp_path, submitted=gradescope / "teacher" / sample)
     assert found["score"] == pytest.approx(score)
     hidden = [test for test in found["tests"] if test["visibility"] == "after_due_date"]
     checks = [c for n in ("invert_rigid", "iterations_needed") for c in exercises()[n].checks]
@@ -127,7 +129,10 @@ def test_gradescope_gives_the_samples_what_they_deserve(gradescope, bare, tmp_pa
 def test_gradescope_says_once_what_was_not_handed_in(gradescope, bare, tmp_path):
     right = (gradescope / "teacher" / "full" / "my_invert_rigid.py").read_text()
     found = scored(
-        gradescope, bare, tmp_path, {"my_invert_rigid.py": right, "notes.py": "x = 1", "b.txt": "x"}
+        gradescope,
+        bare,
+        tmp_path,
+        submitted={"my_invert_rigid.py": right, "notes.py": "x = 1", "b.txt": "x"},
     )
     assert json.dumps(found).count("iterations_needed: not handed in") == 1
     assert found["output"].splitlines() == [
@@ -144,7 +149,7 @@ def test_gradescope_says_once_what_was_not_handed_in(gradescope, bare, tmp_path)
 
 
 def test_gradescope_takes_a_file_of_any_name_and_says_what_is_missing(gradescope, bare, tmp_path):
-    found = scored(gradescope, bare, tmp_path, {"Homework 3 (final).PY": WRONG})
+    found = scored(gradescope, bare, tmp_path, submitted={"Homework 3 (final).PY": WRONG})
     assert 0 <= found["score"] < 30
     assert "seen (4, 4)" in found["output"]
     assert any(
@@ -162,9 +167,9 @@ def test_gradescope_takes_a_file_of_any_name_and_says_what_is_missing(gradescope
     ],
 )
 def test_gradescope_has_results_for_what_cannot_be_graded(
-    gradescope, bare, tmp_path, submitted, said
+    gradescope, bare, tmp_path, *, submitted, said
 ):
-    found = scored(gradescope, bare, tmp_path, submitted)
+    found = scored(gradescope, bare, tmp_path, submitted=submitted)
     assert found["score"] == 0
     assert said in found["output"]
 
@@ -193,7 +198,7 @@ def test_gradescope_has_results_where_the_grader_is_ended(gradescope, bare, tmp_
 
 
 @pytest.mark.parametrize("broken", ["no Python", "no packages", "no sandbox"])
-def test_gradescope_has_results_where_the_grader_breaks(gradescope, bare, tmp_path, broken):
+def test_gradescope_has_results_where_the_grader_breaks(gradescope, bare, tmp_path, *, broken):
     root = lay_out_gradescope(tmp_path, gradescope, gradescope / "teacher" / "full")
     if broken == "no packages":
         (root / "source" / "packages" / "workbench" / "errors.py").unlink()
@@ -279,7 +284,7 @@ def prairielearn(tmp_path_factory):
 
 
 def submitted(
-    prairielearn: Path, python: str, folder: Path, text: str, exercise: str = "invert_rigid"
+    prairielearn: Path, python: str, folder: Path, *, text: str, exercise: str = "invert_rigid"
 ) -> dict:
     """Return what a submission's results.json says; it is there, and is what PrairieLearn
     documents.
@@ -318,13 +323,13 @@ def test_a_question_is_what_prairielearn_documents(prairielearn):
 
 @pytest.mark.parametrize(("sample", "score"), [("full", 1), ("none", 0)])
 def test_prairielearn_gives_the_samples_what_they_deserve(
-    prairielearn, bare, tmp_path, sample, score
+    prairielearn, bare, tmp_path, *, sample, score
 ):
     found = submitted(
         prairielearn,
         bare,
         tmp_path,
-        (prairielearn / "teacher" / sample / "my_invert_rigid.py").read_text(),
+        text=(prairielearn / "teacher" / sample / "my_invert_rigid.py").read_text(),
     )
     assert found["score"] == score
     assert found["gradable"] is True
@@ -333,7 +338,7 @@ def test_prairielearn_gives_the_samples_what_they_deserve(
 def test_prairielearn_shows_the_failing_case_and_nothing_of_hidden_checks(
     prairielearn, bare, tmp_path
 ):
-    found = submitted(prairielearn, bare, tmp_path, WRONG)
+    found = submitted(prairielearn, bare, tmp_path, text=WRONG)
     assert 0 <= found["score"] < 1
     assert "seen (4, 4)" in found["output"]
     (image,) = found["images"]
@@ -347,7 +352,7 @@ def test_prairielearn_shows_the_failing_case_and_nothing_of_hidden_checks(
 
 
 def test_prairielearn_takes_no_attempt_for_what_cannot_be_graded(prairielearn, bare, tmp_path):
-    found = submitted(prairielearn, bare, tmp_path, "def invert_rigid(T:\n")
+    found = submitted(prairielearn, bare, tmp_path, text="def invert_rigid(T:\n")
     assert found["gradable"] is False
     assert "line 1" in found["format_errors"][0]
 
@@ -374,7 +379,7 @@ def test_prairielearn_takes_no_attempt_for_what_cannot_be_graded(prairielearn, b
         (["match", "full/file"], "is no folder"),
     ],
 )
-def test_what_cannot_be_handed_out_is_one_line(tmp_path, monkeypatch, capsys, words, said):
+def test_what_cannot_be_handed_out_is_one_line(tmp_path, monkeypatch, capsys, *, words, said):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "file").write_text("mine")

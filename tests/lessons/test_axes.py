@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from lessons.axes.inputs import Input
 from lessons.axes.lesson import lesson, run, setup
-from lessons.axes.presets import fallen_most
+from lessons.axes.questions import fallen_most
 from lessons.axes.scans import scans_of
 from lessons.axes.space import Turns, many_turns
 from tests.runs import finished

@@ -55,7 +55,7 @@ def test_one_cloud_takes_the_place_of_the_rabbit_in_any_unit_and_place(tmp_path,
 
 
 @pytest.mark.parametrize(("up", "axis"), [("z", 2), ("y", 1), ("x", 0)])
-def test_it_stands_upright(tmp_path, shape, up, axis):
+def test_it_stands_upright(tmp_path, shape, up, *, axis):
     p = scans_of(Input(**saved(tmp_path, source=shape), up=up)).p_target
     heights = shape[:, axis] - shape[:, axis].mean()
     np.testing.assert_allclose(np.corrcoef(p[:, 2], heights)[0, 1], 1.0)

@@ -65,7 +65,7 @@ def ending(params: Params, kind: str) -> tuple[State, Ending]:
         ("bent", 526.2, 1.72, 0.313, 17.0),
     ],
 )
-def test_the_presets_end_where_they_should(name, f, sd, rms, worst):
+def test_the_presets_end_where_they_should(name, f, sd, *, rms, worst):
     last = end(preset(name))
     assert f_of(last) == pytest.approx(f, abs=0.1)
     assert sd_of(preset(name)) == pytest.approx(sd, rel=0.03)

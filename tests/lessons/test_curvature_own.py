@@ -61,7 +61,7 @@ def test_a_soup_is_welded(tmp_path):
     assert state.now.total == pytest.approx(4 * np.pi, abs=1e-9)
 
 
-def written(folder, p, faces, name="own.off"):
+def written(folder, p, faces, *, name="own.off"):
     rows = [" ".join(f"{x:.17g}" for x in q) for q in p] + [f"3 {a} {b} {c}" for a, b, c in faces]
     (folder / name).write_text("\n".join([f"OFF\n{len(p)} {len(faces)} 0", *rows]))
     return Input(mesh=folder / name)
@@ -102,7 +102,7 @@ BALL = trimesh.creation.icosphere(1)
     ],
     ids=["sheets touch", "turned", "twice", "unused", "two pieces", "open"],
 )
-def test_awkward_meshes_are_mended_and_the_caption_says_how(tmp_path, p, faces, words, chi):
+def test_awkward_meshes_are_mended_and_the_caption_says_how(tmp_path, p, faces, *, words, chi):
     params = written(tmp_path, p, faces)
     run = timeline(params)
     start = states(params)[0]
@@ -120,7 +120,8 @@ def test_a_mesh_in_any_unit_looks_the_same_and_its_size_is_said_without_exponent
     run = timeline(written(tmp_path, unit * BALL.vertices, BALL.faces))
     state = run.states()[-1]
     np.testing.assert_allclose(
-        state.now.K, timeline(written(tmp_path, BALL.vertices, BALL.faces, "1.off"))[-1].state.now.K
+        state.now.K,
+        timeline(written(tmp_path, BALL.vertices, BALL.faces, name="1.off"))[-1].state.now.K,
     )
     assert f"{1 / unit:,.10g} m here" in caption_of(run[0].scene).text.replace("1.00", "1")
     for step in run.known():

@@ -45,7 +45,7 @@ class TestSlots:
     def test_cost_volume(self):
         calls = []
 
-        def doubled(left, right, max_disparity, window):
+        def doubled(left, right, max_disparity, window):  # noqa: PLR0917
             calls.append((left.shape, max_disparity, window, left.dtype))
             return 2 * sad_cost_volume(left, right, max_disparity, window)
 
@@ -59,7 +59,7 @@ class TestSlots:
         assert calls == []
 
     def test_a_volume_with_the_wrong_sign_finds_nothing(self):
-        def mirrored(left, right, max_disparity, window):
+        def mirrored(left, right, max_disparity, window):  # noqa: PLR0917
             return sad_cost_volume(left[:, ::-1], right[:, ::-1], max_disparity, window)[:, :, ::-1]
 
         assert run(PLANES, cost_volume=mirrored)[LAST_CHOICE].wrong > 0.9

@@ -14,8 +14,8 @@ from lessons.disparity.inputs import Input
 from lessons.disparity.lesson import lesson
 from lessons.disparity.presets import BASELINES, JUMP, NET, PATH, PRICES, ROW, SINGLE, WINDOWS
 from lessons.disparity.row import BLOCK
-from lessons.disparity.study import WINDOWS as SIDES
-from lessons.disparity.study import winners_by_window
+from lessons.disparity.swept import WINDOWS as SIDES
+from lessons.disparity.swept import winners_by_window
 from tests.lessons.disparity_runs import states as states_of
 from tests.lessons.disparity_runs import timeline
 from workbench.algorithms.stereo.cost_volume import sad_cost_volume

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import scipy
 
-from lessons.distances import presets
+from lessons.distances import presets, questions
 from lessons.distances.lesson import lesson
 from lessons.distances.stages import finer_grids, finer_spheres
 from lessons.distances.state import Ball, Found, Front, Landmarks, Params, Scatter, Trials
@@ -37,7 +37,7 @@ def now(kind, params, step=-1):
 
 
 def goal(params) -> tuple[float, float]:
-    return presets.to_goal(states(params))
+    return questions.to_goal(states(params))
 
 
 # the plane ----------------------------------------------------------------------------------------
@@ -150,7 +150,7 @@ def test_the_right_landmark_by_the_ellipse_of_the_measurement():
         (Params(neighbours="march", grid=81), 6.0, 2.9, 3.6),
     ],
 )
-def test_errors_round_the_wall(params, worst, mean, way):
+def test_errors_round_the_wall(params, worst, mean, *, way):
     found = now(Found, params)
     assert 100 * found.worst == pytest.approx(worst, abs=0.4)
     assert 100 * found.mean == pytest.approx(mean, abs=0.4)
@@ -368,7 +368,7 @@ def with_slots(params, **slots):
 
 
 def test_slots_drive_the_run():
-    def hops(edges, lengths, count, source):
+    def hops(edges, lengths, count, source):  # noqa: PLR0917
         return np.where(np.arange(count) == source, 0.0, 1.0)
 
     for params in (

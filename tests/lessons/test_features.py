@@ -127,7 +127,7 @@ def test_wrong_functions_show():
     small = replace(HOME, points=800)
     own: dict[str, Any] = {s.now.phase: s for s in run(small)}
 
-    def no_swap(p_i, n_i, p_j, n_j):
+    def no_swap(p_i, n_i, p_j, n_j):  # noqa: PLR0917
         return np.zeros((len(p_i), 3))
 
     def none(a, b, ratio):

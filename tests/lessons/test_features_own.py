@@ -30,7 +30,7 @@ def final(params: Params) -> Any:
 @pytest.fixture
 def own(tmp_path) -> Params:
     T = motion(exp_so3(np.array([0.3, -2.0, 1.0])), np.array([300.0, -40.0, 20.0]))
-    made = pair("rabbit", 6000, T, np.random.default_rng(0), overlap=0.9, noise=0.001)
+    made = pair("rabbit", 6000, T, rng=np.random.default_rng(0), overlap=0.9, noise=0.001)
     scale = 1000.0  # a file in millimetres
     T = T.copy()
     T[:3, 3] *= scale
@@ -149,7 +149,7 @@ def test_a_car_finds_its_lidar_scans(shared_data):
     assert last.error.rotation < 0.2
 
 
-def kept_near_lines(F, uv, descriptors, ratio):
+def kept_near_lines(F, uv, descriptors, *, ratio):
     """How many matches each filter keeps of two pictures, and the share of them within 2 px of
     their true line.
     """
@@ -172,13 +172,13 @@ def test_corners_of_the_fountain_lie_on_each_others_lines_and_sift_is_no_better(
     images = [grey(read_image(folder / f"000{k}_third.jpg")) for k in (4, 5)]
     uv = [strongest(harris_response(image), 1000, border=16) for image in images]
     described = [patches(image, at, 15) for image, at in zip(images, uv, strict=True)]
-    of = kept_near_lines(F, uv, described, 0.9)
+    of = kept_near_lines(F, uv, described, ratio=0.9)
     assert of["both"][0] > 0.9 > of["ratio"][0] > of["nearest"][0] + 0.1
     assert of["both"][0] > of["mutual"][0] > of["nearest"][0] + 0.1
-    patch_share, patch_count = kept_near_lines(F, uv, described, 0.8)["both"]
+    patch_share, patch_count = kept_near_lines(F, uv, described, ratio=0.8)["both"]
     found = [sift(image) for image in images]
     sift_share, sift_count = kept_near_lines(
-        F, [s.uv for s in found], [s.descriptors for s in found], 0.8
+        F, [s.uv for s in found], [s.descriptors for s in found], ratio=0.8
     )["both"]
     assert patch_share == pytest.approx(0.97, abs=0.005)
     assert sift_share == pytest.approx(0.96, abs=0.005)

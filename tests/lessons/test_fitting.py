@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from lessons.fitting.lesson import lesson, run
-from lessons.fitting.presets import ALIKE, EDGE, LARGE, iterations_to
+from lessons.fitting.presets import ALIKE, EDGE, LARGE
+from lessons.fitting.questions import iterations_to
 from lessons.fitting.state import Params
 from tests.runs import finished
 from tests.truths.fitting import cost, least, plane_error, straight, wider

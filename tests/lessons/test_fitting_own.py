@@ -82,7 +82,7 @@ def test_rivals_and_starts_take_own_points_too(tmp_path):
         ("".join(f"{k},{k * k},0\n" for k in range(9)), {"shape": "sphere"}, "on a plane"),
     ],
 )
-def test_what_cannot_be_used_is_refused(tmp_path, text, more, words):
+def test_what_cannot_be_used_is_refused(tmp_path, text, more, *, words):
     path = tmp_path / "points.csv"
     path.write_text(text)
     with pytest.raises(InputError, match=words):

@@ -307,7 +307,9 @@ class TestPicture:
 
 class TestQuestions:
     def test_their_answers(self):
-        found = {q.name: answer(lesson, q, None, TIMELINES).truth for q in lesson.questions}
+        found = {
+            q.name: answer(lesson, q, None, timelines=TIMELINES).truth for q in lesson.questions
+        }
         assert found["predict-far"] == "Lower the RMSE to the end and be wrong"
         assert found["predict-plane"] == "10"
         assert found["best-share"] == "70 %"
@@ -316,7 +318,7 @@ class TestQuestions:
     def test_they_open_the_run_itself_where_the_answer_is_seen(self):
         for question in lesson.questions:
             if question.params.stage == "space":
-                k = answer(lesson, question, None, TIMELINES).step
+                k = answer(lesson, question, None, timelines=TIMELINES).step
                 assert states(question.params)[k].look.now.stop is not None
 
     def test_other_starts_are_calm_wherever_they_end(self):
@@ -330,7 +332,7 @@ class TestQuestions:
 
     def test_every_wrong_answer_is_answered_and_none_is_right(self):
         for question in lesson.questions:
-            right = answer(lesson, question, None, TIMELINES).value
+            right = answer(lesson, question, None, timelines=TIMELINES).value
             for i in range(len(question.choices)):
                 assert bool(question.reply(i)) is (i != right)
             for low, high, _ in question.wrong:

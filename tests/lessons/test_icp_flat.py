@@ -121,7 +121,7 @@ class TestLandscape:
 
 class TestQuestions:
     def test_their_answers(self):
-        found = {q.name: answer(lesson, q, None, TIMELINES) for q in lesson.questions[:3]}
+        found = {q.name: answer(lesson, q, None, timelines=TIMELINES) for q in lesson.questions[:3]}
         assert found["how-many-now"].truth == "More than one"
         assert found["predict-matches"].truth == "Fewer than one in ten"
         assert found["where-it-rests"].value == pytest.approx(94.6, abs=0.1)

@@ -343,7 +343,7 @@ class TestRealScans:
             ("car_cloud400.csv", "car_cloud401.csv", "carCloudList.csv", 0.03),
         ],
     )
-    def test_the_defaults_come_home(self, shared_data, target, source, truth, most_metres, fit):
+    def test_the_defaults_come_home(self, shared_data, target, source, *, truth, most_metres, fit):
         folder = shared_data / "icp"
         params = Params(
             target=folder / target, source=folder / source, truth=folder / truth, fit=fit

@@ -74,7 +74,7 @@ def test_other_tasks_leave_it_alone(box):
         ("beyond.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "beyond.off"),
     ],
 )
-def test_what_is_no_mesh_is_refused(tmp_path, name, text, says):
+def test_what_is_no_mesh_is_refused(tmp_path, name, text, *, says):
     (tmp_path / name).write_text(text)
     with pytest.raises(InputError, match=says):
         own(tmp_path / name)

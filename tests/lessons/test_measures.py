@@ -102,7 +102,7 @@ def test_overlaps_count_twice_but_not_in_voxels():
 
 
 def _ball() -> tuple[np.ndarray, np.ndarray]:
-    one = built_in("sphere", 3, 4, 4)
+    one = built_in("sphere", 3, 4, rings=4)
     return one.p, one.faces
 
 
@@ -286,7 +286,7 @@ def test_answers_are_read_off_the_run():
 
 
 def test_three_middles_are_three_points():
-    rabbit = built_in("rabbit", 0, 4, 4)
+    rabbit = built_in("rabbit", 0, 4, rings=4)
     middles = (
         rabbit.p.mean(axis=0),
         area_centroid(rabbit.p, rabbit.faces),
@@ -335,7 +335,7 @@ def test_a_slot_is_asked_about_the_origin_that_was_set():
         return signed_volume(p, faces)
 
     tuple(run(Params(origin=(1.0, 2.0, 3.0)), signed_volume=spy))
-    np.testing.assert_allclose(seen[0], built_in("rabbit", 0, 4, 4).p - [1, 2, 3])
+    np.testing.assert_allclose(seen[0], built_in("rabbit", 0, 4, rings=4).p - [1, 2, 3])
 
 
 def test_what_is_thrown_is_counted():

@@ -174,7 +174,7 @@ def test_all_labels_together(organ):
         ({"labels": np.ones((3, 3, 3))}, 0, "no array of three axes"),
     ],
 )
-def test_voxels_that_cannot_be_used_are_refused_in_one_line(tmp_path, arrays, label, said):
+def test_voxels_that_cannot_be_used_are_refused_in_one_line(tmp_path, arrays, label, *, said):
     np.savez(tmp_path / "bad.npz", **arrays)
     with pytest.raises(InputError, match=said):
         next(run(Params(voxels=tmp_path / "bad.npz", label=label)))

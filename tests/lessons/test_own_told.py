@@ -62,7 +62,7 @@ def test_pose_says_which_camera_is_taken(tmp_path):
 
 def test_features_says_why_own_scans_have_no_verdict(tmp_path):
     T = motion(exp_so3(np.array([0.0, 0.0, 0.6])), np.array([0.3, 0.1, 0.0]))
-    made = pair("rabbit", 3000, T, np.random.default_rng(0), overlap=0.9, noise=0.002)
+    made = pair("rabbit", 3000, T, rng=np.random.default_rng(0), overlap=0.9, noise=0.002)
     np.save(tmp_path / "a.npy", made.p_target)
     np.save(tmp_path / "b.npy", made.p_source)
     last = captions("features", target=tmp_path / "a.npy", source=tmp_path / "b.npy")[-1]

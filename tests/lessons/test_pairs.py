@@ -193,7 +193,7 @@ class TestSpace:
 
 class TestQuestions:
     def test_their_answers(self):
-        found = {q.name: answer(lesson, q, None, TIMELINES) for q in lesson.questions}
+        found = {q.name: answer(lesson, q, None, timelines=TIMELINES) for q in lesson.questions}
         assert found["how-many-valleys"].truth == "One"
         assert found["predict-negated"].value == pytest.approx(0.737, abs=1e-3)
         assert found["predict-product"].truth == "less than 1"
@@ -201,7 +201,7 @@ class TestQuestions:
 
     def test_every_wrong_answer_is_answered_and_none_is_right(self):
         for question in lesson.questions:
-            right = answer(lesson, question, None, TIMELINES).value
+            right = answer(lesson, question, None, timelines=TIMELINES).value
             for i in range(len(question.choices)):
                 assert bool(question.reply(i)) is (i != right)
             for low, high, _ in question.wrong:

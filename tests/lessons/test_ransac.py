@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lessons.ransac import flat, presets
+from lessons.ransac import flat, presets, widths
 from lessons.ransac.inputs import Input
 from lessons.ransac.lesson import lesson
 from lessons.ransac.questions import first, reached
@@ -288,7 +288,7 @@ def test_the_width_of_the_band_belongs_to_the_noise():
     """The error of the finished line is lowest from about 40 to 120 mm, twice as large at 15 mm
     and thrice at 250.
     """
-    errors = dict(zip(flat.STUDIED, flat.errors_by_width(presets.WIDER), strict=True))
+    errors = dict(zip(widths.STUDIED, widths.errors_by_width(presets.WIDER), strict=True))
     low = [error for width, error in errors.items() if 0.039 < width < 0.126]
     rest = [error for width, error in errors.items() if not 0.039 < width < 0.126]
     assert max(low) < 0.007 < min(rest)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.ransac import flat, presets
+from lessons.ransac import presets, widths
 from lessons.ransac.captions import caption
 from lessons.ransac.inputs import Input
 from lessons.ransac.lesson import lesson, setup
@@ -239,7 +239,7 @@ def test_picks_need_enough_different_points():
 )
 def test_many_points_are_studied_in_fewer_scenes_and_the_chart_says_so(points, scenes):
     params = replace(presets.WIDER, points=points)
-    assert flat.studies(params) == scenes
+    assert widths.studies(params) == scenes
     timeline = Timeline(lesson, params)
     timeline.extend()
     curve = timeline[0].scene["error/whole"]

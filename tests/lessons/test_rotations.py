@@ -289,7 +289,7 @@ class TestMean:
 class TestQuestions:
     def test_right_answers(self):
         timelines = Timelines()
-        found = {q.name: answer(lesson, q, None, timelines) for q in lesson.questions}
+        found = {q.name: answer(lesson, q, None, timelines=timelines) for q in lesson.questions}
         assert found["lost-direction"].truth == "2"
         assert found["same-turn"].truth == "Z Y X with (70, 30, 40)°"
         assert found["sum-of-turns"].value == pytest.approx(120)

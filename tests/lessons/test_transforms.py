@@ -253,7 +253,7 @@ class TestHands:
 class TestQuestions:
     def test_right_answers(self):
         timelines = Timelines()
-        found = {q.name: answer(lesson, q, None, timelines) for q in lesson.questions}
+        found = {q.name: answer(lesson, q, None, timelines=timelines) for q in lesson.questions}
         assert found["read-columns"].truth == "It turns by 90° about z"
         assert found["which-order"].value == pytest.approx(2.12, abs=0.01)
         assert found["undo"].truth == "Unturned, somewhere else"

@@ -10,7 +10,8 @@ from tests import fake
 from workbench.page.charts import chart_of, outline, series_of
 from workbench.page.plots import line_of, plot_of
 from workbench.page.steps import Steps
-from workbench.run.timeline import Series, Timeline
+from workbench.run.series import Series
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Chart, Curve, Scalar
 
 

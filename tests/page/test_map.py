@@ -22,7 +22,9 @@ CHAPTERS = {"One": ["a", "b", "c"], "Two": ["d", "e"], "More": ["f", "g"]}
 
 
 def drawn(names, needs=NEEDS, chapters=CHAPTERS) -> str:
-    return course_map(names, needs, {name: f"?lesson={name}&x" for name in needs}, chapters)
+    return course_map(
+        names, needs, {name: f"?lesson={name}&x" for name in needs}, chapters=chapters
+    )
 
 
 def course_drawn() -> tuple[dict[str, tuple[str, ...]], dict[str, list[str]]]:

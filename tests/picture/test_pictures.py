@@ -162,7 +162,9 @@ def test_a_step_counts_from_the_end_too(tmp_path, capsys):
         (["-o", "folder", "--scenes"], "has no story"),
     ],
 )
-def test_what_cannot_be_is_one_line_and_writes_nothing(words, said, tmp_path, monkeypatch, capsys):
+def test_what_cannot_be_is_one_line_and_writes_nothing(
+    words, said, tmp_path, *, monkeypatch, capsys
+):
     monkeypatch.chdir(tmp_path)
     assert main(["picture", FAKE, *words]) == 2
     assert said in told(capsys)

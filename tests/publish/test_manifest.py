@@ -170,8 +170,10 @@ def test_the_command_leaves_other_lessons_where_lessons_are_named_and_else_there
     out, monkeypatch, capsys
 ):
     before = contents(out / "fake")
-    monkeypatch.setattr("workbench.cli.lesson_given", lambda name: {"other": OTHER}[name])
-    monkeypatch.setattr("workbench.cli.catalog", lambda: {"other": OTHER})
+    monkeypatch.setattr(
+        "workbench.commands.making.lesson_given", lambda name: {"other": OTHER}[name]
+    )
+    monkeypatch.setattr("workbench.commands.making.catalog", lambda: {"other": OTHER})
     assert main(["publish", str(out), "--lesson", "other"]) == 0, capsys.readouterr().err
     assert contents(out / "fake") == before
     assert (out / "other" / "index.html").exists()
@@ -243,7 +245,7 @@ def test_a_link_to_a_file_elsewhere_is_replaced_not_followed(tmp_path):
 
 
 @pytest.mark.parametrize("moment", ["before", "after"])
-def test_who_is_stopped_in_the_middle_of_writing_goes_on(out, monkeypatch, rendered, moment):
+def test_who_is_stopped_in_the_middle_of_writing_goes_on(out, monkeypatch, rendered, *, moment):
     """Neither the old content of a file nor the new one is taken for somebody else's."""
     from workbench.publish import manifest
 

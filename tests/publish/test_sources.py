@@ -102,6 +102,7 @@ def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
     others = tuple(f"lessons/{other}/" for other in catalog() if other != name)
     beside = (
         "workbench/cli.py",
+        "workbench/commands/",
         "workbench/exercise/",
         "workbench/viewer/server.py",
         "workbench/publish/site.py",

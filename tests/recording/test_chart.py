@@ -36,7 +36,8 @@ def drawn(*curves: Curve):
 
 def words_of(*curves: Curve):
     """Return the words around a chart."""
-    return chart_frame(*scales(curves), "x", [(one.name, PALETTE[one.color]) for one in curves])[1]
+    names = [(curve.name, PALETTE[curve.color]) for curve in curves]
+    return chart_frame(*scales(curves), "x", names=names)[1]
 
 
 @given(

@@ -116,7 +116,7 @@ def test_runs_of_two_lessons_are_refused(files, tmp_path):
         ),
     ],
 )
-def test_a_layout_that_is_none_is_damage(files, tmp_path, monkeypatch, odd):
+def test_a_layout_that_is_none_is_damage(files, tmp_path, monkeypatch, *, odd):
     monkeypatch.setattr("workbench.recording.write.to_json", lambda *what: odd)
     bad = record(fake.lesson, tmp_path / "bad.rrd", steps=2)
     for pair in ((bad, files[0]), (files[0], bad)):

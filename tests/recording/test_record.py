@@ -53,7 +53,7 @@ def name_of(path: Path) -> str:
         ({"params": fake.Params(steps=2)}, fake.Params(steps=2), None, "Every primitive, steps 2"),
     ],
 )
-def test_what_is_asked_for_is_recorded_under_its_own_name(tmp_path, given, params, preset, name):
+def test_what_is_asked_for_is_recorded_under_its_own_name(tmp_path, given, params, *, preset, name):
     path = record(fake.lesson, tmp_path / "a.rrd", **given)
     recording = open_recording(path)
     assert recording.typed_params(fake.lesson) == params

@@ -46,7 +46,7 @@ def opened(monkeypatch) -> list[tuple[Lesson, object]]:
 @pytest.mark.parametrize(
     "name", ["evil.py", "./evil.py", "../evil.py", "ABSOLUTE", "evil", "evil:lesson", "tests.fake"]
 )
-def test_a_name_in_a_recording_is_never_run(capsys, tmp_path, monkeypatch, opened, name):
+def test_a_name_in_a_recording_is_never_run(capsys, tmp_path, monkeypatch, *, opened, name):
     here = tmp_path / "here"
     here.mkdir()
     for folder in (tmp_path, here):
@@ -139,7 +139,7 @@ def test_another_version_is_warned_of_and_tried(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("odd", ["[]", "3", '"x"', "[" * 5000])
-def test_params_that_are_none_are_damage(capsys, tmp_path, monkeypatch, odd):
+def test_params_that_are_none_are_damage(capsys, tmp_path, monkeypatch, *, odd):
     monkeypatch.setattr("workbench.recording.write.knobs.to_json", lambda params: odd)
     path = record(fake.lesson, tmp_path / "a.rrd")
     assert main(["reopen", str(path)]) == 2

@@ -22,7 +22,7 @@ ALL = (
 )
 
 
-def said(promise, tmp_path, old, new):
+def said(promise, tmp_path, old, *, new):
     """Return the lines of a promise where a text of page.md is another."""
     text = lesson.text()
     assert old in text
@@ -112,12 +112,12 @@ def test_a_good_story_holds(promise):
         ),
     ],
 )
-def test_a_spoiled_one_is_told(tmp_path, promise, old, new, wrong):
-    assert any(wrong in line for line in said(promise, tmp_path, old, new))
+def test_a_spoiled_one_is_told(tmp_path, promise, old, *, new, wrong):
+    assert any(wrong in line for line in said(promise, tmp_path, old, new=new))
 
 
 def test_a_number_may_be_written_in_another_unit(tmp_path):
     numbers = promises.the_numbers_of_the_story_are_those_of_its_runs
-    assert said(numbers, tmp_path, "[2.14 m]", "[2,139 mm]") == []
-    assert said(numbers, tmp_path, "[2.14 m]", "[214 cm]") == []
-    assert said(numbers, tmp_path, "[2.14 m]", "[2,14 m]")
+    assert said(numbers, tmp_path, "[2.14 m]", new="[2,139 mm]") == []
+    assert said(numbers, tmp_path, "[2.14 m]", new="[214 cm]") == []
+    assert said(numbers, tmp_path, "[2.14 m]", new="[2,14 m]")

@@ -13,7 +13,7 @@ K = np.array([[536.0, 0, 342], [0, 536, 236], [0, 0, 1]])
 LENS = (-0.27, 0.05, 0.0015, -0.0005, 0.0)
 
 
-def bent(xy: np.ndarray, k1: float, k2: float, p1: float, p2: float, k3: float) -> np.ndarray:
+def bent(xy: np.ndarray, k1: float, k2: float, p1: float, p2: float, k3: float) -> np.ndarray:  # noqa: PLR0917
     """Brown's lens as OpenCV's documentation has it."""
     x, y = xy[..., 0], xy[..., 1]
     r2 = x**2 + y**2
@@ -27,7 +27,7 @@ def bent(xy: np.ndarray, k1: float, k2: float, p1: float, p2: float, k3: float) 
     )
 
 
-def seen(K: np.ndarray, lens: tuple[float, ...], Ts: np.ndarray, p: np.ndarray) -> np.ndarray:
+def seen(K: np.ndarray, lens: tuple[float, ...], Ts: np.ndarray, *, p: np.ndarray) -> np.ndarray:
     """Pixels (k, n, 2) of the board in every view."""
     c = p @ np.swapaxes(Ts[:, :3, :3], 1, 2) + Ts[:, None, :3, 3]
     return bent(c[..., :2] / c[..., 2:], *lens) @ K[:2, :2].T + K[:2, 2]
@@ -60,7 +60,7 @@ def rms_of(state: State) -> np.ndarray:
     """The rms of each view, from the camera and the poses themselves."""
     now, subject = state.now, state.subject
     assert now.K is not None
-    off = seen(now.K, tuple(now.lens), now.Ts_camera_board, subject.p_board) - subject.uv
+    off = seen(now.K, tuple(now.lens), now.Ts_camera_board, p=subject.p_board) - subject.uv
     return np.sqrt((off**2).sum(axis=2).mean(axis=1))
 
 
@@ -87,7 +87,7 @@ def deviation_of_f(state: State) -> float:
         Ts[:, :3, :3] = (np.eye(3) + W + W @ W / 2) @ Ts[:, :3, :3]
         Ts[:, :3, 3] += x[len(free) + 3 :]
         camera = np.array([[s[0], 0, s[2]], [0, s[1], s[3]], [0, 0, 1]])
-        return (seen(camera, tuple(s[4:]), Ts, p) - uv).reshape(len(uv), -1)
+        return (seen(camera, tuple(s[4:]), Ts, p=p) - uv).reshape(len(uv), -1)
 
     sizes = np.array([*[1e-3 if i < 4 else 1e-6 for i in free], *([1e-6] * 6)])
     slopes = np.stack(

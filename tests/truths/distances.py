@@ -68,7 +68,7 @@ def errors(state: State) -> np.ndarray:
     return now.d[kept] / true[kept] - 1
 
 
-def by_heat(p: np.ndarray, faces: np.ndarray, sources: np.ndarray, time: float) -> np.ndarray:
+def by_heat(p: np.ndarray, faces: np.ndarray, sources: np.ndarray, *, time: float) -> np.ndarray:
     """Distances (vertices, sources) by heat over a closed mesh, from the paper's formulas with sums
     over single corners.
     """

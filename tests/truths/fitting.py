@@ -30,11 +30,13 @@ def least(state: Any) -> float:
     """
     subject = state.subject
     starts = tuple(tuple(start) for start in (subject.truth, subject.best) if start is not None)
-    return _least(subject.kind.name, subject.p.tobytes(), subject.p.shape[1], starts)
+    return _least(subject.kind.name, subject.p.tobytes(), subject.p.shape[1], starts=starts)
 
 
 @functools.lru_cache(maxsize=64)
-def _least(name: str, points: bytes, columns: int, starts: tuple[tuple[float, ...], ...]) -> float:
+def _least(
+    name: str, points: bytes, columns: int, *, starts: tuple[tuple[float, ...], ...]
+) -> float:
     p = np.frombuffer(points).reshape(-1, columns)
     solve = functools.partial(
         scipy.optimize.least_squares, x_scale="jac", xtol=1e-10, ftol=1e-10, gtol=1e-10

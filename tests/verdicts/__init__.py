@@ -61,7 +61,7 @@ class Claim:
 Oracle = Callable[[Run, int], float]
 
 
-def misvalued(said: Caption, values: Mapping[str, Oracle], run: Run, k: int) -> list[str]:
+def misvalued(said: Caption, values: Mapping[str, Oracle], run: Run, *, k: int) -> list[str]:
     """Return which values of a caption are not what the run says, to six digits."""
     found = []
     for name, value in said.values.items():
@@ -72,7 +72,7 @@ def misvalued(said: Caption, values: Mapping[str, Oracle], run: Run, k: int) -> 
     return found
 
 
-def untrue(text: str, claims: Sequence[Claim], run: Run, k: int) -> list[str]:
+def untrue(text: str, claims: Sequence[Claim], run: Run, *, k: int) -> list[str]:
     """Return what a text says that does not hold, and what judges without a claim that could be
     checked.
     """

@@ -66,7 +66,7 @@ def audit(
             )
             subject = form.setup(one)
             seen = Run(one, States.of(states, params=one, subject=subject), subject)
-            wrong = list(judged(lesson, judge, seen, texts))
+            wrong = list(judged(lesson, judge, seen, texts=texts))
             if own:
                 wrong += wordless(seen, texts)
             yield from (f"{where}, {line}" for line in wrong[:MOST])
@@ -102,7 +102,7 @@ def seeded(params: Any, seeds: Sequence[int]) -> Iterator[Any]:
         yield from (dataclasses.replace(params, seed=seed) for seed in seeds if seed != params.seed)
 
 
-def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Iterator[str]:
+def judged(lesson: Lesson, judge: Any, run: Run, *, texts: Sequence[Text]) -> Iterator[str]:
     """Return what is not true of one run: in its captions, in their tone, and in what is said of
     it.
     """
@@ -111,15 +111,15 @@ def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Itera
         look = Look(params=run.params, subject=run.subject, now=state, past=run.states[:k])
         given = state if lesson.setup is None else look
         said = caption(given)
-        yield from (f"step {k}: {what}" for what in untrue(said.text, judge.CAPTIONS, run, k))
+        yield from (f"step {k}: {what}" for what in untrue(said.text, judge.CAPTIONS, run, k=k))
         if lesson.setup is not None:
-            yield from (f"step {k}: {what}" for what in misvalued(said, judge.VALUES, run, k))
+            yield from (f"step {k}: {what}" for what in misvalued(said, judge.VALUES, run, k=k))
         right = judge.right(run, k)
         if said.tone != "info" and right is not None and right is not (said.tone == "good"):
             yield f"step {k}: the tone is {said.tone}, the truth {right}: {said.text}"
     for name, text, claims in texts:
         yield from (
-            f"{name}: {what}" for what in untrue(text(run), claims, run, len(run.states) - 1)
+            f"{name}: {what}" for what in untrue(text(run), claims, run, k=len(run.states) - 1)
         )
 
 

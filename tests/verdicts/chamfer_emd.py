@@ -252,7 +252,7 @@ def _ranked(run: Run, k: int, m: re.Match[str]) -> bool:
 def _blur(run: Run, k: int, m: re.Match[str]) -> bool:
     now, target = run.states[k], target_of(run)
     rng = np.random.default_rng(run.params.seed)
-    far = blob(run.params.points, 0.3, True, rng)
+    far = blob(run.params.points, 0.3, True, rng=rng)
     blur = now.blur
     known = plan_cost(far, target, blur)
     return (

@@ -209,7 +209,7 @@ def _as_a_metric(state: State) -> tuple[float, float, float]:
     s = state.subject
     assert s is not None
     some = np.unique(np.linspace(0, len(s.p) - 1, 24).astype(int))
-    D = by_heat(s.p, s.faces, some, 10.0**state.params.time * s.h**2)[some]
+    D = by_heat(s.p, s.faces, some, time=10.0**state.params.time * s.h**2)[some]
     np.fill_diagonal(D, 0.0)
     back = (np.abs(D - D.T) / np.maximum(np.maximum(D, D.T), 1e-300))[np.triu_indices(len(some), 1)]
     triples = [

@@ -66,7 +66,12 @@ class Page:
                 return told
 
     def give(
-        self, content: bytes, name: str = "mine.npy", field: str = "scan", origin: str | None = None
+        self,
+        content: bytes,
+        name: str = "mine.npy",
+        field: str = "scan",
+        *,
+        origin: str | None = None,
     ):
         return httpx.post(
             f"{self.server.address}/files/{self.token}/{field}",
@@ -178,7 +183,7 @@ def test_only_a_field_that_names_a_file_takes_one(server, tmp_path, field):
 
 @pytest.mark.parametrize("with_length", [True, False])
 def test_what_is_too_large_or_empty_is_refused_and_nothing_is_kept(
-    server, tmp_path, monkeypatch, with_length
+    server, tmp_path, monkeypatch, *, with_length
 ):
     monkeypatch.setattr(own_files, "MOST_BYTES", 100_000)
     content = bytes(150_000)

@@ -23,7 +23,7 @@ import pytest
 
 from tests.fake_page import FakePage
 from tests.loops import run_apart
-from workbench import cli
+from workbench.commands import watching
 from workbench.lesson import catalog
 from workbench.run import flags
 from workbench.run.timeline import Timeline
@@ -317,7 +317,7 @@ def test_the_container_s_recipe_agrees_with_the_project():
     assert kinds.index("USER") < kinds.index("ENTRYPOINT")
     command = json.loads(dict(steps)["ENTRYPOINT"])
     assert command[0] in project["scripts"]
-    called = flags.parse(cli.serve, command[1:], "workbench", description="")
+    called = flags.parse(watching.serve, command[1:], "workbench", description="")
     assert callable(called)
     assert command[command.index("--port") + 1] == dict(steps)["EXPOSE"]
 

@@ -87,12 +87,12 @@ def nobody() -> None:
 def test_the_step_that_somebody_waits_for_comes_before_everybody_s_rest(one, steered):
     rest = [steered.run_of(number) for number in range(5)]
     for number, run in enumerate(rest):
-        one.want(f"reader {number}", run, 0, nobody)
+        one.want(f"reader {number}", run, 0, tell=nobody)
     steered.may.release(5 + 5 * scheduling.AHEAD + 3)
     until(lambda: len(steered.made) == 5 + 5 * scheduling.AHEAD + 3)
     before = len(steered.made)
     told = threading.Event()
-    one.want("me", steered.run_of(100), 3, told.set)
+    one.want("me", steered.run_of(100), 3, tell=told.set)
     steered.may.release(5)
     assert told.wait(60)
     assert steered.made[before:][:5].count(100) == 4, "one step of another's rest was being made"
@@ -108,11 +108,11 @@ def test_a_slice_of_everybody_s_rest_ends_with_the_step_in_which_somebody_comes(
     scheduler = Scheduler(1, busy=busy.is_set)
     try:
         resting = steered.run_of(1)
-        scheduler.want("reader", resting, 0, nobody)
+        scheduler.want("reader", resting, 0, tell=nobody)
         steered.may.release(3)
         until(lambda: len(resting) == 3)  # the fourth is being made, in a slice at rest
         if what == "another run":
-            scheduler.want("me", steered.run_of(2), 0, nobody)
+            scheduler.want("me", steered.run_of(2), 0, tell=nobody)
         else:
             busy.set()
         steered.may.release(1)
@@ -131,10 +131,10 @@ def test_a_slice_of_everybody_s_rest_ends_with_the_step_in_which_somebody_comes(
 
 
 def test_who_asks_a_lot_delays_only_themselves(one, steered):
-    one.want("greedy", steered.run_of(1), -1, nobody)
+    one.want("greedy", steered.run_of(1), -1, tell=nobody)
     until(lambda: len(one) == 1)
     for number in range(2, 6):
-        one.want(number, steered.run_of(number), 9, nobody)
+        one.want(number, steered.run_of(number), 9, tell=nobody)
     steered.may.release(50)
     until(lambda: len(steered.made) >= 50)
     counts = [steered.made[:50].count(number) for number in range(1, 6)]
@@ -144,7 +144,7 @@ def test_who_asks_a_lot_delays_only_themselves(one, steered):
 
 def test_a_run_that_nobody_looks_at_is_given_up(one, steered):
     run = steered.run_of(1)
-    one.want("me", run, 0, nobody)
+    one.want("me", run, 0, tell=nobody)
     steered.may.release(3)
     until(lambda: len(steered.made) == 3)
     one.leave("me")
@@ -159,11 +159,11 @@ def test_at_rest_a_run_is_computed_to_its_end_and_all_who_look_are_told(one, ste
     run = steered.run_of(1, 40)
     told = [threading.Event() for _ in range(3)]
     for who, event in enumerate(told):
-        one.want(who, run, 0, event.set)
+        one.want(who, run, 0, tell=event.set)
     until(lambda: run.finished)
     assert all(event.wait(60) for event in told)
     assert steered.made == [1] * 40, "each step is made once for all"
-    assert not one.want("late", run, 3, nobody)
+    assert not one.want("late", run, 3, tell=nobody)
     until(lambda: len(one) == 0)
 
 
@@ -174,7 +174,7 @@ def test_while_people_wait_for_something_else_only_what_is_waited_for_is_compute
     try:
         steered.may.release(10_000)
         run, told = steered.run_of(1, 40), threading.Event()
-        scheduler.want("me", run, 3, told.set)
+        scheduler.want("me", run, 3, tell=told.set)
         assert told.wait(60)
         for _ in range(20):
             with scheduler._changed:
@@ -217,22 +217,22 @@ def test_a_lesson_that_ends_the_program_ends_its_own_run(one, steered):
     lesson = replace(steered.lesson, run=leaving)
     for number in (0, 1):
         run = Timeline(lesson, Params(number))
-        one.want("me", run, -1, nobody)
+        one.want("me", run, -1, tell=nobody)
         until(lambda run=run: run.finished)
         assert ("KeyboardInterrupt" if number else "SystemExit") in (run.stopped or "")
     steered.may.release(10)
     run = steered.run_of(7, 5)
-    one.want("me", run, -1, nobody)
+    one.want("me", run, -1, tell=nobody)
     until(lambda: run.finished)
 
 
 def test_a_step_that_holds_a_thread_up_is_worked_around(one, steered, monkeypatch):
     monkeypatch.setattr(scheduling, "STUCK", 0.05)
     stuck = steered.run_of(1)
-    one.want("unlucky", stuck, 0, nobody)
+    one.want("unlucky", stuck, 0, tell=nobody)
     time.sleep(0.1)
     other = Timeline(fake.lesson, fake.Params())
-    one.want("me", other, -1, nobody)
+    one.want("me", other, -1, tell=nobody)
     until(lambda: one.relieve() or other.finished)
     steered.may.release(10_000)
 

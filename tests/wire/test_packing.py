@@ -101,7 +101,7 @@ def test_a_stage_is_told_where_the_view_or_the_lesson_is_another():
     other = View(eye=(1.0, 1.0, 1.0))
 
     def told(view: View, lesson: str) -> bool:
-        return "stage" in reader.read(wire.step({}, {}, view, lesson))
+        return "stage" in reader.read(wire.step({}, {}, view, stage=lesson))
 
     asked = [
         (VIEW, "a"),

@@ -150,6 +150,7 @@ def solve_linear(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
     T_first: Float[np.ndarray, "3 3"],
+    *,
     T_second: Float[np.ndarray, "3 3"],
 ) -> Linear:
     """Return the answer with the least algebraic error in given coordinates, T times the pixels.

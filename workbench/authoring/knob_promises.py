@@ -80,14 +80,16 @@ def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
                 idle.setdefault(base, []).append(field)
     for base, turned in idle.items():
         plain = subject.fresh(base, "a run", MOST_STEPS)
-        if _all_turned(subject, turned, base, plain):
+        if _all_turned(subject, turned, base, plain=plain):
             for field in turned:
-                yield from _has_no_effect(subject, field, base, plain, "its needs are not met")
+                yield from _has_no_effect(
+                    subject, field, base, plain=plain, although="its needs are not met"
+                )
         else:
             yield from [None] * len(turned)
 
 
-def _all_turned(subject: Subject, fields: list[ParamField], base: Any, plain: Timeline) -> bool:
+def _all_turned(subject: Subject, fields: list[ParamField], base: Any, *, plain: Timeline) -> bool:
     """Whether knobs that are turned together, to each of their ends once, change a run."""
     values = {field.name: ends(field) for field in fields if field.kind != "path"}
     for k in range(max(map(len, values.values()), default=0)):
@@ -101,7 +103,7 @@ def _all_turned(subject: Subject, fields: list[ParamField], base: Any, plain: Ti
 
 
 def _has_no_effect(
-    subject: Subject, field: ParamField, base: Any, plain: Timeline, although: str
+    subject: Subject, field: ParamField, base: Any, *, plain: Timeline, although: str
 ) -> Found:
     for value in [value for value in ends(field) if value != getattr(base, field.name)]:
         turned = subject.fresh(
@@ -146,9 +148,11 @@ def a_knob_that_a_run_does_not_read_changes_nothing(subject: Subject) -> Found:
         run = subject.whole(params, name)
         read |= run.read
         idle = [field for field in fields if field.name in run.idle()]
-        if idle and _all_turned(subject, idle, params, run):
+        if idle and _all_turned(subject, idle, params, plain=run):
             for field in idle:
-                yield from _has_no_effect(subject, field, params, run, f"{name} does not read it")
+                yield from _has_no_effect(
+                    subject, field, params, plain=run, although=f"{name} does not read it"
+                )
         yield None
     for params in _choices(subject.lesson):
         if all(field.name in read for field in fields):

@@ -37,7 +37,7 @@ def the_page_has_its_parts(subject: Subject) -> Found:
     text = lesson.text()
     where = f"{subject.who}: {lesson.page}"
     tells = has_story(lesson)
-    yield None if tells else length_of(f"{where}: the page", len(text.split()), WORDS, "words")
+    yield None if tells else length_of(f"{where}: the page", len(text.split()), WORDS, unit="words")
     for part in STORY_PARTS if tells else PARTS:
         yield None if part.lower() in text.lower() else f"{where}: the page has no part {part!r}"
     try:

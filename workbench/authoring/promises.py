@@ -137,7 +137,7 @@ def _captions(where: str, run: Timeline) -> Found:
     for k, step in enumerate(run.known()):
         text = step.caption.text
         yield length_of(
-            f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters"
+            f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, unit="characters"
         )
         asked = None if text == before else next(live_words(text, run.lesson), None)
         yield (
@@ -229,7 +229,7 @@ def every_preset_runs_and_promises_something(subject: Subject) -> Found:
 def _preset(subject: Subject, preset: Preset) -> Found:
     label = f"{subject.who}, preset {preset.name!r}"
     yield None if NAME.fullmatch(preset.name) else f"{label}: a name is letters, digits, - and _"
-    yield length_of(f"{label}: its line", len(preset.line), LINE, "characters")
+    yield length_of(f"{label}: its line", len(preset.line), LINE, unit="characters")
     run = subject.whole(preset.params, f"preset {preset.name!r}")
     yield None if run.stopped in (None, subject.default().stopped) else f"{label}: {run.stopped}"
     yield from _captions(f"{label}, ", run)
@@ -265,7 +265,7 @@ def _question(subject: Subject, question: Question) -> Found:
             return subject.whole(params, f"the run of question {question.name!r}")
 
     try:
-        solution = answer(subject.lesson, question, None, Runs)  # type: ignore[arg-type]
+        solution = answer(subject.lesson, question, None, timelines=Runs)  # type: ignore[arg-type]
     except InputError as error:
         message = str(error)
         if message != subject.default().stopped:
@@ -347,7 +347,7 @@ def opens(run: Timeline, label: str, step: int) -> str | None:
     return None
 
 
-def length_of(label: str, length: int, wanted: tuple[int, int], unit: str) -> str | None:
+def length_of(label: str, length: int, wanted: tuple[int, int], *, unit: str) -> str | None:
     """Return a line where something is shorter or longer than wanted."""
     least, most = wanted
     return (

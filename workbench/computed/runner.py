@@ -133,7 +133,7 @@ class Runner:
         head = self._updates.step(k, {}, line)
         view = self._aim.view(self.lesson, timeline.params)
         scene_head = {"run": self._number, "k": k}
-        return head, self._wire.step(scene_head, step.scene, view, self.lesson.name)
+        return head, self._wire.step(scene_head, step.scene, view, stage=self.lesson.name)
 
     def click(
         self, index: int, p_origin: Sequence[float], v_ray: Sequence[float]
@@ -141,8 +141,12 @@ class Runner:
         """Return what a click in a step's scene sets, by a field's name: nothing where it hits
         nothing that can be picked.
         """
-        ray = np.array(p_origin, float), np.array(v_ray, float)
-        return picked_params(self.timeline.params, self.timeline[index].scene, *ray)
+        return picked_params(
+            self.timeline.params,
+            self.timeline[index].scene,
+            np.array(p_origin, float),
+            v_ray=np.array(v_ray, float),
+        )
 
     # a student's own function ---------------------------------------------------------------------
 

@@ -26,7 +26,7 @@ def read_in_place(file: str, text: str) -> Submission:
     Raises:
         InputError: If it is no Python, with the line; or is no text.
     """
-    submitted = submission(file, text.encode(), lambda name: None, _InPlaceReader())
+    submitted = submission(file, text.encode(), lambda name: None, reader=_InPlaceReader())
     if submitted.broken:
         raise InputError(submitted.broken)
     return submitted
@@ -70,7 +70,7 @@ class InPlaceFunction(StudentFunction):
         try:
             with self._heard():
                 self._function = load(
-                    self.source, file, self.name, {}, names=builtins_of_students()
+                    self.source, file, self.name, modules={}, names=builtins_of_students()
                 )
         except BaseException as error:
             raise self.raised(told(error, file), loading=True) from None

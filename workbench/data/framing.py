@@ -100,7 +100,7 @@ def upward(p: Float[np.ndarray, "n 3"], path: Path, up: Upward) -> Up:
     return likely_up(p, path.suffix.lower()) if up == "auto" else up
 
 
-def own_points(p: Float[np.ndarray, "n 3"], path: Path, up: Upward, width: float) -> np.ndarray:
+def own_points(p: Float[np.ndarray, "n 3"], path: Path, up: Upward, *, width: float) -> np.ndarray:
     """Return the points of a person's file upright, about the origin, `width` metres long.
 
     Raises:

@@ -224,7 +224,9 @@ def _decoded(path: Path, name: str, _stamp: tuple[int, int], *, most: int) -> np
 
 
 @apart
-def _upright(path: Path, name: str, most: int | None = None, kind: str | None = None) -> np.ndarray:
+def _upright(
+    path: Path, name: str, most: int | None = None, *, kind: str | None = None
+) -> np.ndarray:
     from PIL import ImageOps
 
     with opened_image(_source(path, name), PurePosixPath(name).name) as image:

@@ -66,7 +66,7 @@ def framed(source: Path, up: Up) -> tuple[Cloud, Frame]:
 
 
 def own_pair(
-    target: Path, source: Path, truth: Path | None, up: Up
+    target: Path, source: Path, truth: Path | None, *, up: Up
 ) -> tuple[Float[np.ndarray, "m 3"], Cloud, Float[np.ndarray, "4 4"] | None]:
     """Return two own clouds in one picture, at the scale of the first, and what truly brings the
     second to the first.

@@ -11,6 +11,7 @@ def framed(
     picture: UInt8[np.ndarray, "h w 3"],
     center: tuple[int, int],
     window: int,
+    *,
     frame: tuple[int, int, int],
 ) -> UInt8[np.ndarray, "h w 3"]:
     """Return a copy of a picture with a frame around the window at `center` (u, v)."""
@@ -29,9 +30,9 @@ def side_by_side(
     left: UInt8[np.ndarray, "h w 3"],
     right: UInt8[np.ndarray, "h w 3"],
     uv: tuple[int, int],
+    *,
     d: int,
     window: int,
-    *,
     frame: tuple[int, int, int],
 ) -> UInt8[np.ndarray, "k m 3"]:
     """Return the windows around left (u, v) and right (u - d, v) beside each other, each framed.
@@ -40,16 +41,16 @@ def side_by_side(
     """
     u, v = uv
     half = max(window // 2, 3) + 1
-    cuts = [_cut(picture, x, v, half) for picture, x in ((left, u), (right, u - d))]
+    cuts = [_cut(picture, x, v, half=half) for picture, x in ((left, u), (right, u - d))]
     low = float(np.min(cuts))
     span = max(float(np.max(cuts)) - low, LEAST_SPAN)
     bright = [np.rint((cut - low) * (255.0 / span)).astype(np.uint8) for cut in cuts]
-    framed_left, framed_right = (framed(cut, (half, half), window, frame) for cut in bright)
+    framed_left, framed_right = (framed(cut, (half, half), window, frame=frame) for cut in bright)
     gap = np.full((framed_left.shape[0], GAP, 3), 255, np.uint8)
     return np.concatenate([framed_left, gap, framed_right], axis=1)
 
 
-def _cut(picture: np.ndarray, u: int, v: int, half: int) -> np.ndarray:
+def _cut(picture: np.ndarray, u: int, v: int, *, half: int) -> np.ndarray:
     h, w = picture.shape[:2]
     rows, columns = np.mgrid[v - half : v + half + 1, u - half : u + half + 1]
     inside = (rows >= 0) & (rows < h) & (columns >= 0) & (columns < w)

@@ -152,7 +152,7 @@ def grade_function(
         tuple(outcomes),
         tuple(check for check in exercise.checks if not (check.public or hidden)),
         mistake,
-        frozenset() if mistake is None else concerned(mistake, calls, failing, exercise),
+        frozenset() if mistake is None else concerned(mistake, calls, failing, exercise=exercise),
         "" if ours else function.printed(),
         None if ours else function.wall,
         seed,

@@ -139,7 +139,7 @@ def changed(args: tuple[Any, ...]) -> Verdict:
     )
 
 
-def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
+def beside(got: Any, right: Any, hint: str, name: str = "") -> str:  # noqa: PLR0917
     """Return the hint behind the two numbers, yours and right, where an answer is farthest off.
 
     Of points in rows the whole row is told.

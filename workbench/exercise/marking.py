@@ -161,7 +161,7 @@ def grade_student(handed: HandIn, asked: Asked) -> Result:
 
 
 def marked(
-    part: GradedFile, wall: Wall, megabytes: int | None = None, seed: int | None = None
+    part: GradedFile, wall: Wall, megabytes: int | None = None, *, seed: int | None = None
 ) -> Report | dict[str, Any]:
     """Return the report on a file, or what `ungraded` makes of it that it cannot be graded."""
     try:
@@ -290,7 +290,7 @@ def _read_one(handed: HandIn, file: str, reader: Reader) -> Submission:
     def extra_file(name: str) -> bytes | None:
         return handed.files.get(str(PurePosixPath(file).with_name(name)))
 
-    return submission(PurePosixPath(file).name, handed.files[file], extra_file, reader)
+    return submission(PurePosixPath(file).name, handed.files[file], extra_file, reader=reader)
 
 
 def digest(handed: HandIn, asked: Asked) -> str:

@@ -79,7 +79,7 @@ def diagnose(
 
 
 def concerned(
-    mistake: Mistake, calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise
+    mistake: Mistake, calls: Mapping[str, Sequence[Call]], failing: set[str], *, exercise: Exercise
 ) -> frozenset[str]:
     """Return the names of the failing checks in which a function makes a mistake."""
     told = {name: _evidence(mistake, calls[name], exercise) for name in failing}

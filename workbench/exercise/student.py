@@ -17,7 +17,13 @@ class StudentError(InputError):
     """
 
     def __init__(
-        self, message: str, kind: str, error: str = "", line: int = 0, errors: tuple[str, ...] = ()
+        self,
+        message: str,
+        kind: str,
+        error: str = "",
+        *,
+        line: int = 0,
+        errors: tuple[str, ...] = (),
     ):
         super().__init__(message)
         self.kind = kind
@@ -86,13 +92,15 @@ class StudentFunction:
         where = f"{self.submission.file}, line {line}: " if line else f"{self.submission.file}: "
         if loading:
             return StudentError(
-                f"{where}the file does not load: {error}: {message}", "load", error, line
+                f"{where}the file does not load: {error}: {message}", "load", error, line=line
             )
         if error == "WireError":
             return StudentError(
-                f"{where}{self.name} returned what is no result: {message}", "result", "", line
+                f"{where}{self.name} returned what is no result: {message}", "result", "", line=line
             )
         if error == "NotImplementedError":
-            return StudentError(f"{where}{self.name} is not written yet", "raised", error, line)
+            return StudentError(
+                f"{where}{self.name} is not written yet", "raised", error, line=line
+            )
         message = f"{where}{self.name} raised {error}" + (f": {message}" if message else "")
-        return StudentError(message, "raised", error, line, errors)
+        return StudentError(message, "raised", error, line=line, errors=errors)

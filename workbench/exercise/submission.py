@@ -78,11 +78,11 @@ def read_submission(path: Path) -> Submission:
     from workbench.exercise.reading import Reader  # a browser has no processes
 
     with Reader() as reader:
-        return submission(path.name, content(path), extra_file, reader)
+        return submission(path.name, content(path), extra_file, reader=reader)
 
 
 def submission(
-    file: str, data: bytes, extra_file: Callable[[str], bytes | None], reader: Reads
+    file: str, data: bytes, extra_file: Callable[[str], bytes | None], *, reader: Reads
 ) -> Submission:
     """Return what the bytes of a file are; `extra_file` gives those beside it by name, or None.
 

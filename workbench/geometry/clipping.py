@@ -121,6 +121,7 @@ def cut_finely(
     p: Float[np.ndarray, "n c 3"],
     flatten: Callable[[np.ndarray], np.ndarray],
     longest: float,
+    *,
     low: Float[np.ndarray, "2"],
     high: Float[np.ndarray, "2"],
 ) -> tuple[Float[np.ndarray, "m c 3"], Int[np.ndarray, " m"]]:

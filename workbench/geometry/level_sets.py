@@ -15,7 +15,7 @@ EdgeCrossings = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.nd
 """edge_crossings(p_a, p_b, f_a, f_b) -> where the field is zero on each edge."""
 
 
-def edge_crossings(
+def edge_crossings(  # noqa: PLR0917
     p_a: Float[np.ndarray, "n 3"],
     p_b: Float[np.ndarray, "n 3"],
     f_a: Float[np.ndarray, " n"],
@@ -38,6 +38,7 @@ def level_lines(
     values: Float[np.ndarray, "y x"],
     levels: Float[np.ndarray, " k"],
     low_corner: Float[np.ndarray, "2"],
+    *,
     spacing: float,
 ) -> Float[np.ndarray, "n 2 2"]:
     """Return the segments along which a field has one of some values; it has a row for each y from

@@ -56,7 +56,7 @@ def on_dial(degrees: np.ndarray, radius: float) -> Float[np.ndarray, "n 2"]:
 
 
 def dial_arc(
-    low: float, high: float, radius: float, depth: float = 0.0, *, every: float = 3.0
+    low: float, high: float, radius: float, *, depth: float = 0.0, every: float = 3.0
 ) -> Float[np.ndarray, "n 2 3"]:
     """Return the segments of an arc of a dial that stands upright, from one angle to another.
 

@@ -13,7 +13,7 @@ from workbench.scene import caption_of
 SIZE = 640, 400
 
 
-def pictured(exercise: Exercise, handed: HandIn, file: str, wall: Wall) -> list[dict[str, str]]:
+def pictured(exercise: Exercise, handed: HandIn, file: str, *, wall: Wall) -> list[dict[str, str]]:
     """Return a picture of the failing case as a label and a data URL; none where the lesson's run
     shows none.
 

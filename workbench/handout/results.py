@@ -14,6 +14,7 @@ def prairielearn(
     reports: Sequence[Report],
     failed: Sequence[dict[str, Any]],
     images: Sequence[dict[str, str]] = (),
+    *,
     notes: Sequence[str] = (),
 ) -> dict[str, Any]:
     """Return the `results.json` of a question: its score is a share; what cannot be graded costs no

@@ -85,7 +85,7 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
                 reports.append(graded) if isinstance(graded, Report) else failed.append(graded)
             if assignment.service == "prairielearn" and reports and not reports[-1].is_full:
                 write()
-                images += pictured(exercise, handed, reports[-1].file, wall)
+                images += pictured(exercise, handed, reports[-1].file, wall=wall)
             waiting.pop(0)
             write()
     except Exception as error:  # a fault of ours must not leave a student without a word
@@ -116,7 +116,7 @@ def _results(
     notes: Sequence[str],
 ) -> dict[str, Any]:
     if assignment.service == "prairielearn":
-        return prairielearn(reports, failed, images, notes)
+        return prairielearn(reports, failed, images, notes=notes)
     factors = {exercise.name: assignment.factor(exercise) for exercise in assignment.exercises}
     hidden = "after_published" if assignment.due is None else "after_due_date"
     return gradescope(reports, failed, factors=factors, hidden=hidden, notes=notes)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from workbench.page.legend import css_color, escape
-from workbench.run.timeline import Series, plotted_values
+from workbench.run.series import Series, plotted_values
 from workbench.scene import PALETTE, Curve, Table
 from workbench.words.axis import LOGARITHM, Axis, axis, labelled, of_powers, value_axis
 

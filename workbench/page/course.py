@@ -165,5 +165,5 @@ def _map(chapters: list[tuple[Chapter, list[Card]]]) -> str:
         {card.name: card.title for card in cards},
         {card.name: card.needs for card in cards},
         {card.name: card.address for card in cards},
-        {chapter.name: [card.name for card in own] for chapter, own in chapters},
+        chapters={chapter.name: [card.name for card in own] for chapter, own in chapters},
     )

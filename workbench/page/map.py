@@ -70,6 +70,7 @@ def course_map(
     titles: Mapping[str, str],
     needs: Mapping[str, Sequence[str]],
     addresses: Mapping[str, str],
+    *,
     chapters: Mapping[str, Sequence[str]],
 ) -> str:
     """Return the map as links in an SVG; empty where no lesson builds on another.
@@ -89,12 +90,13 @@ def course_map(
     y = {name: 8 + row[name] * (HEIGHT + DOWN) + band[name] * BETWEEN for name in column}
     wide = LEFT + (max(column.values()) + 1) * (WIDTH + ACROSS) - ACROSS + 2
     high = max(y.values()) + HEIGHT + 8
-    lines = "".join(_lines(needs, column, x, y))
+    lines = "".join(_lines(needs, column, x, y=y))
     boxes = "".join(
-        _box(name, titles[name], addresses[name], needs[name], x[name], y[name]) for name in column
+        _box(name, titles[name], addresses[name], needs=needs[name], x=x[name], y=y[name])
+        for name in column
     )
     stripes = "".join(
-        _stripe(chapter, 1 + rows_[0] * (HEIGHT + DOWN) + i * BETWEEN, len(rows_), wide)
+        _stripe(chapter, 1 + rows_[0] * (HEIGHT + DOWN) + i * BETWEEN, len(rows_), wide=wide)
         for i, (chapter, rows_) in enumerate(bands.items())
     )
     return (
@@ -110,6 +112,7 @@ def _lines(
     needs: Mapping[str, Sequence[str]],
     column: Mapping[str, int],
     x: Mapping[str, int],
+    *,
     y: Mapping[str, int],
 ) -> list[str]:
     """Return a path for each need: it turns behind what is needed, and runs along the other's
@@ -147,7 +150,7 @@ def _path(start: tuple[int, int], turn: int, end: tuple[int, int]) -> str:
     )
 
 
-def _stripe(chapter: str, y: int, count: int, wide: int) -> str:
+def _stripe(chapter: str, y: int, count: int, *, wide: int) -> str:
     high = count * (HEIGHT + DOWN)
     return (
         f'<rect class="stripe" x="0" y="{y}" width="{wide}" height="{high}" rx="10"/>'
@@ -155,7 +158,7 @@ def _stripe(chapter: str, y: int, count: int, wide: int) -> str:
     )
 
 
-def _box(name: str, title: str, address: str, needs: Sequence[str], x: int, y: int) -> str:
+def _box(name: str, title: str, address: str, *, needs: Sequence[str], x: int, y: int) -> str:
     lines = _wrapped(title)
     first = y + HEIGHT / 2 - 8 * (len(lines) - 1)
     words = "".join(

@@ -72,6 +72,7 @@ def lesson_page(
     lesson: Lesson,
     known: Mapping[str, Any],
     head: str = "",
+    *,
     computes: Mapping[str, Any] | None = None,
 ) -> str:
     """Return a lesson's page.
@@ -134,7 +135,7 @@ def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
     """
     encoded = {}
     for question in lesson.questions:
-        told = answer(lesson, question, None, timelines)
+        told = answer(lesson, question, None, timelines=timelines)
         kept = {
             "truth": told.truth,
             "right": told.truth if question.choices else [told.value, question.tolerance],

@@ -319,7 +319,7 @@ def _write_page(
         lesson, runs_of(lesson)[0], root="../", runs="runs/", answers=answers(lesson, timelines)
     )
     files = {f"{key}{name}": draw(lesson, timelines) for name, draw in pictures.items()}
-    files[f"{key}{COURSE_PAGE}"] = lesson_page(lesson, known, head, computes).encode()
+    files[f"{key}{COURSE_PAGE}"] = lesson_page(lesson, known, head, computes=computes).encode()
     manifest.runs.pop(key, None)
     manifest.write(files)
     manifest.runs[key] = digest

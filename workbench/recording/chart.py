@@ -62,7 +62,7 @@ def scales(curves: Sequence[Curve]) -> tuple[Scale, Scale]:
     return Scale(axis(xs.min() - half, xs.max() + half), LEFT, RIGHT), Scale(up, BOTTOM, TOP)
 
 
-def chart_frame(x: Scale, y: Scale, x_label: str, names: Sequence[tuple[str, Rgb]]) -> list[Any]:
+def chart_frame(x: Scale, y: Scale, x_label: str, *, names: Sequence[tuple[str, Rgb]]) -> list[Any]:
     """Return the axes, ticks and words of a chart."""
     strips = [np.array([[LEFT, TOP], [LEFT, BOTTOM], [RIGHT, BOTTOM]])]
     strips += [np.array([[x(tick), BOTTOM], [x(tick), BOTTOM + 4]]) for tick in x.axis.ticks]
@@ -165,7 +165,7 @@ def legend_names(entries: Legend) -> list[Any]:
     return [lines, _text(below, [name for name, _ in entries], colors)]
 
 
-def legend_bar(i: int, bars: int, entries: Legend, bar: Mapping[str, Any]) -> list[Any]:
+def legend_bar(i: int, bars: int, entries: Legend, *, bar: Mapping[str, Any]) -> list[Any]:
     """Return the i-th of so many colour bars, below the names."""
     room = LEGEND_WIDTH / max(bars, 2)
     return color_bar(

@@ -12,7 +12,7 @@ import rerun as rr
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import plotted
 from workbench.recording.sink import entity_of, markdown
-from workbench.run.timeline import Series, plotted_values
+from workbench.run.series import Series, plotted_values
 from workbench.scene import PALETTE, Caption, Scalar
 
 TONES = {"info": "", "good": "✓ ", "wrong": "✗ "}

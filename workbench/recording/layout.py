@@ -13,7 +13,7 @@ from workbench.recording.chart import LEGEND_WIDTH, Canvas
 from workbench.recording.contents import Contents
 from workbench.recording.glyphs import safe
 from workbench.recording.sink import TABLES, entity_of
-from workbench.run.timeline import plotted_values
+from workbench.run.series import plotted_values
 from workbench.scene import Scalar
 from workbench.words.axis import value_axis
 

@@ -246,14 +246,14 @@ def _recording(path: Path, chunks: Sequence[Any]) -> Recording:
     )
     if not 0 < n <= told:
         raise InputError(f"{path}: is damaged: it has fewer captions than steps")
-    captions = _column(chunks, "/caption", "caption", n)
+    captions = _column(chunks, "/caption", "caption", n=n)
     paths = [
         chunk.entity_path
         for chunk in chunks
         if chunk.entity_path.startswith("/scalars/") and not chunk.is_static
     ]
     series = {
-        _scene_path(entity): np.array(_column(chunks, entity, "Scalars:scalars", n), float)
+        _scene_path(entity): np.array(_column(chunks, entity, "Scalars:scalars", n=n), float)
         for entity in paths
     }
     abouts = {path: _static(chunks, entity) for path, entity in zip(series, paths, strict=True)}
@@ -280,7 +280,7 @@ def _recording(path: Path, chunks: Sequence[Any]) -> Recording:
         format=int(facts["format"]),
         version=str(facts["version"]),
         captions=tuple(captions),
-        tones=tuple(_column(chunks, "/caption", "tone", n)),
+        tones=tuple(_column(chunks, "/caption", "tone", n=n)),
         scalars={"step": steps, **scalars},
         curves={path: _scalar(abouts[path], scalars[path]) for path in order},
         layout=facts["layout"],
@@ -315,7 +315,7 @@ def _static(chunks: Sequence[Any], entity: str) -> dict[str, Any]:
     return values
 
 
-def _column(chunks: Sequence[Any], entity: str, component: str, n: int) -> list[Any]:
+def _column(chunks: Sequence[Any], entity: str, component: str, *, n: int) -> list[Any]:
     """Return one component of an entity, step by step; None where a step has none."""
     values: list[Any] = [None] * n
     for chunk in chunks:

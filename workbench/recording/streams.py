@@ -42,14 +42,16 @@ def stream_bytes(application: str, fill: Callable[[Any], None], layout: Any = No
             stream = _recording(application, id_of([*content, *beside]))
             return _logged(
                 stream,
-                lambda stream: _send(stream, application, chunks_of(content), chunks_of(beside)),
+                lambda stream: _send(
+                    stream, application, chunks_of(content), layout=chunks_of(beside)
+                ),
             )
         finally:
             rr.set_strict_mode(strict)
             bindings.flush_and_cleanup_orphaned_recordings()
 
 
-def _send(stream: Any, application: str, chunks: Sequence[Any], layout: Sequence[Any]) -> None:
+def _send(stream: Any, application: str, chunks: Sequence[Any], *, layout: Sequence[Any]) -> None:
     """Send all chunks; `stream.send_blueprint` would leave two threads and a megabyte behind."""
     if layout:
         own = _layout(application)

@@ -130,7 +130,8 @@ def parse(
     }
     readers = {name: _reader(parser, parameter) for name, parameter in own.items()}
     for name in [name for name in signature.parameters if name not in own]:
-        readers[name] = _lesson_reader(parser, words, *asked)
+        lesson_name, preset = asked
+        readers[name] = _lesson_reader(parser, words, lesson_name, preset=preset)
     places = "".join(
         f"{action.metavar} " for action in parser._actions if not action.option_strings
     )
@@ -279,7 +280,7 @@ def _led_on(
 
 
 def _lesson_reader(
-    parser: _Parser, words: list[str], name: str | None, preset: str | None
+    parser: _Parser, words: list[str], name: str | None, *, preset: str | None
 ) -> Reader:
     """Take the lesson's name out of the words; its params become flags."""
     if name is None:

@@ -13,7 +13,7 @@ WIDEST = np.radians(2.0)  # a click further than this from every point means non
 
 
 def picked_params(
-    params: Any, scene: Scene, p_origin: np.ndarray, v_ray: np.ndarray
+    params: Any, scene: Scene, p_origin: np.ndarray, *, v_ray: np.ndarray
 ) -> dict[str, Any]:
     """Return the params that a click sets: the first field with a Pick whose primitive is hit;
     nothing where none is.

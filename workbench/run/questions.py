@@ -31,7 +31,7 @@ class Answer:
     reply: str = ""
 
 
-def answer(lesson: Lesson, question: Question, given: Any, timelines: Timelines) -> Answer:
+def answer(lesson: Lesson, question: Question, given: Any, *, timelines: Timelines) -> Answer:
     """Compare a prediction (None: skipped, only tell) with the run that answers it; computes that
     run.
 

@@ -114,13 +114,13 @@ class Chart:
 
     def whole(self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source") -> Curve:
         """Return the whole curve y over x (n,), the landscape in which a mark moves."""
-        return self._part("whole", x, y, name, color)
+        return self._part("whole", x, y, name=name, color=color)
 
     def second(
         self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "correspondence"
     ) -> Curve:
         """Return a second curve y over x (n,), of this step alone; it is drawn dashed."""
-        return self._part("second", x, y, name, color)
+        return self._part("second", x, y, name=name, color=color)
 
     def mark(
         self,
@@ -139,18 +139,23 @@ class Chart:
         """
         need(not (knob and steps), "a mark is moved by a knob or by steps, not by both")
         place = np.array([float(x)]), np.array([float(y)])
-        return replace(self._part("mark", *place, name, color), kind="dots", knob=knob, steps=steps)
+        return replace(
+            self._part("mark", *place, name=name, color=color), kind="dots", knob=knob, steps=steps
+        )
 
     def band(self, low: float, high: float, name: str, color: Role = "truth") -> Curve:
         """Return a band on the x axis from low to high, such as all starts that lead home."""
         need(low < high, f"a band goes from low to high, not from {low} to {high}")
-        return self._part("band", np.array([float(low), float(high)]), np.zeros(2), name, color)
+        return self._part(
+            "band", np.array([float(low), float(high)]), np.zeros(2), name=name, color=color
+        )
 
     def _part(
         self,
         part: Literal["whole", "mark", "second", "band"],
         x: np.ndarray,
         y: np.ndarray,
+        *,
         name: str,
         color: Role,
     ) -> Curve:

@@ -85,7 +85,7 @@ def what_if(block: Block, names: Names, notes: Found, *, beat: int, later: bool 
         if part.kind == "heading_open":
             title = text.content
             continue
-        paragraph, chosen = _picks(text.children or [], names, notes, part.line)
+        paragraph, chosen = _picks(text.children or [], names, notes, line=part.line)
         picks += chosen
         if paragraph:
             lines.append(paragraph)
@@ -108,7 +108,7 @@ def what_if(block: Block, names: Names, notes: Found, *, beat: int, later: bool 
     return element("div", given, f'{head}<div class="picks" role="group">{"".join(picks)}</div>')
 
 
-def _picks(tokens: list[Any], names: Names, notes: Found, line: int) -> tuple[str, list[str]]:
+def _picks(tokens: list[Any], names: Names, notes: Found, *, line: int) -> tuple[str, list[str]]:
     """Return the words of a paragraph outside its links, and a button for each link to a run."""
     words, picks = list[str](), list[str]()
     go: str | None = None

@@ -6,7 +6,8 @@ import math
 import re
 from collections.abc import Mapping
 
-from workbench.run.timeline import Series, Timeline, stop_of
+from workbench.run.series import Series
+from workbench.run.timeline import Timeline, stop_of
 from workbench.story.model import StepName, Value
 
 LENGTHS: Mapping[str, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "µm": 1e-6, "km": 1000.0}

@@ -57,7 +57,7 @@ class Words:
         for i, token in enumerate(tokens):
             line += token.type in ("softbreak", "hardbreak")
             if token.type == "span_open":
-                plain.append(not self._span(token, _text(tokens, i), line, here))
+                plain.append(not self._span(token, _text(tokens, i), line, here=here))
                 if plain[-1]:
                     continue
             elif token.type == "span_close":
@@ -73,12 +73,12 @@ class Words:
         self._found.places.append((StagePlace(run=run, step=step), line))
         token.attrs = {"class": "run", "data-go": f"{run}@{step}", "href": f"#{self._scene}"}
 
-    def _span(self, token: Any, words: str, line: int, here: StagePlace) -> bool:
+    def _span(self, token: Any, words: str, line: int, *, here: StagePlace) -> bool:
         """Change the opening of a span; False where nothing but its words is to stay."""
         given = {key: str(value) for key, value in token.attrs.items()}
         roles = given.pop("class", "").split()
         if "knob" in given:
-            return self._knob(token, given, words, line, here)
+            return self._knob(token, given, words, line=line, here=here)
         if "steps" in given:
             self._found.series.append((here.run, given["steps"], line))
             token.attrs = {
@@ -88,13 +88,13 @@ class Words:
             }
             return True
         if "value" in given:
-            self._value(token, given, words, line, here)
+            self._value(token, given, words, line=line, here=here)
             return True
         token.attrs = {"class": " ".join(self._names.role(role, line) for role in roles)}
         return bool(roles)
 
     def _knob(
-        self, token: Any, given: dict[str, str], words: str, line: int, here: StagePlace
+        self, token: Any, given: dict[str, str], words: str, *, line: int, here: StagePlace
     ) -> bool:
         name = given["knob"]
         ends = self._names.ends(name, given, line)
@@ -103,7 +103,7 @@ class Words:
         return self._names.can_turn(name, here.run)
 
     def _value(
-        self, token: Any, given: dict[str, str], words: str, line: int, here: StagePlace
+        self, token: Any, given: dict[str, str], words: str, *, line: int, here: StagePlace
     ) -> None:
         run, step = here.run, here.step
         if "run" in given:

@@ -11,6 +11,7 @@ import contextlib
 import math
 import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -145,7 +146,7 @@ class PageConnection:
         session = self.session
         if session is None or self.asleep:
             return
-        self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
+        self.runs.scheduler.want(self, session.timeline, session.wanted, tell=self._came)
         only_steps = self._waits and session.timeline is self._updates.timeline
         crew = self.runs.stepping if only_steps else self.runs.showing
         for part in await crew.do(self._show, session, bool(requests)):
@@ -274,9 +275,9 @@ class PageConnection:
         await self._computed(self.runs.timelines.get(lesson, question.params))
         try:
             with Blaming(f"lesson {lesson.name}, question {question.name!r}", question.answer):
-                result = await self.runs.asking.do(
-                    answer, lesson, question, message.get("given"), self.runs.timelines
-                )
+                compare = partial(answer, timelines=self.runs.timelines)
+                given = message.get("given")
+                result = await self.runs.asking.do(compare, lesson, question, given)
         except InputError as error:
             tell_terminal(error)
             await self._tell(tell="answer", question=question.name, trouble=str(error))
@@ -301,7 +302,9 @@ class PageConnection:
         ray = _ray(message)
         look = None if session is None else session.look()
         if look is not None and session is not None and ray is not None:
-            values = await self.runs.stepping.do(picked_params, look.params, look.scene, *ray)
+            p_origin, v_ray = ray
+            pick = partial(picked_params, look.params, look.scene, p_origin, v_ray=v_ray)
+            values = await self.runs.stepping.do(pick)
             session.change(**values)
 
     async def _computed(self, timeline: Timeline) -> None:
@@ -311,7 +314,7 @@ class PageConnection:
         def tell() -> None:
             self._loop.call_soon_threadsafe(came.set)
 
-        while self.runs.scheduler.want(self, timeline, -1, tell):
+        while self.runs.scheduler.want(self, timeline, -1, tell=tell):
             await came.wait()
             came.clear()
 

@@ -48,6 +48,7 @@ class Following:
         lesson: Lesson,
         watched: WatchedFile | None,
         edited: Edited | None,
+        *,
         replace: Callable[[Lesson, Lesson], None],
         pages: Callable[[], Iterable[Follower]],
     ):

@@ -75,7 +75,9 @@ class Scheduler:
         for _ in range(threads):
             self._start_thread()
 
-    def want(self, asker: Hashable, timeline: Timeline, k: int, tell: Callable[[], None]) -> bool:
+    def want(
+        self, asker: Hashable, timeline: Timeline, k: int, *, tell: Callable[[], None]
+    ) -> bool:
         """Compute a run up to step k (negative: to its end) for somebody, in place of what they
         wanted before.
 

@@ -126,7 +126,7 @@ class Server:
         self.students: dict[str, PageConnection] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
         self.following = start and Following(
-            start.lesson, watched, edited, self._replace, self._pages
+            start.lesson, watched, edited, replace=self._replace, pages=self._pages
         )
         config = uvicorn.Config(
             RequestGate(self._app(), self.rules, f"workbench-{self.port}"),

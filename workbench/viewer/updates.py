@@ -99,7 +99,7 @@ class PageUpdates:
                 wanted = self._run, look.k, look.known > 0, self._view
                 if wanted == self._drawn:
                     return None, None
-                content = self._wire.step(head, look.scene, self._view[1], lesson.name)
+                content = self._wire.step(head, look.scene, self._view[1], stage=lesson.name)
                 self._drawn = wanted
                 return content, None
         except InputError as error:

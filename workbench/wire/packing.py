@@ -60,7 +60,9 @@ class PageWire:
         self._held = 0
         self._staged: Any = None
 
-    def step(self, head: Mapping[str, Any], scene: Scene, view: View, stage: Any = None) -> bytes:
+    def step(
+        self, head: Mapping[str, Any], scene: Scene, view: View, *, stage: Any = None
+    ) -> bytes:
         """Return what the page needs to show a scene.
 
         Args:

@@ -30,7 +30,7 @@ def settled(values: np.ndarray) -> np.ndarray:
     return np.where(np.abs(values) < ROUND_OFF, 0.0, values)
 
 
-def axis(low: float, high: float, most: int = 5, whole: bool = False) -> Axis:
+def axis(low: float, high: float, most: int = 5, *, whole: bool = False) -> Axis:
     """Return the axis from low to high; around both where nothing but round-off lies between them.
 
     `whole` says that there is nothing between whole numbers, steps for instance: ticks are at some

@@ -132,7 +132,7 @@ def _pictures_by(picture: Callable[[str], str] | None) -> Iterator[None]:
         _picture.reset(before)
 
 
-def _image(renderer: Any, tokens: Any, i: int, options: Any, env: Any) -> str:
+def _image(renderer: Any, tokens: Any, i: int, options: Any, env: Any) -> str:  # noqa: PLR0917
     words = html.escape(renderer.renderInlineAsText(tokens[i].children, options, env))
     address = _picture.get()
     if address is None:

@@ -49,7 +49,9 @@ def setup(params: Input) -> Arc:
 
 
 @traced
-def refine(p: np.ndarray, xyr: np.ndarray, distances: Callable, free: int) -> Iterator[np.ndarray]:
+def refine(
+    p: np.ndarray, xyr: np.ndarray, distances: Callable, *, free: int
+) -> Iterator[np.ndarray]:
     """Yield a circle, and circles ever nearer to the points: Gauss-Newton in x, y and maybe r."""
     for _ in range(40):
         yield xyr

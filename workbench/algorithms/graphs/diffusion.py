@@ -34,7 +34,9 @@ class Heat:
 
 
 @traced
-def heat(u: Float[np.ndarray, " n"], laplacian: Laplacian, dt: float, steps: int) -> Iterator[Heat]:
+def heat(
+    u: Float[np.ndarray, " n"], laplacian: Laplacian, dt: float, *, steps: int
+) -> Iterator[Heat]:
     """Yield heat that flows along the edges by explicit (forward Euler) steps of du/dt = -L u.
 
     Steps longer than 2 over the largest eigenvalue make some part of u grow at every step.

@@ -101,7 +101,7 @@ def fit_mesh(
         return chamfer(q, given), slope
 
     fine = np.random.default_rng(0).random((FINE, 3))
-    for updates, loss in descend(p, gradient, counts, RATE):
+    for updates, loss in descend(p, gradient, counts, rate=RATE):
         q = points_on_faces(p, faces, u)
         off = nearest_both_ways(q, truth) if len(truth) else None
         yield MeshFitted(

@@ -128,10 +128,10 @@ def train_field(
         outputs = forward(layers, x[rows], network.activation)
         y = distances_of(rows).astype(np.float32)
         loss, slope = _loss(outputs[-1][:, 0], y, target)
-        backward(layers, outputs, slope[:, None], network.activation, into)
+        backward(layers, outputs, slope[:, None], activation=network.activation, into=into)
         return loss, gradients
 
-    for done, loss in descend(values, gradient, counts, RATE):
+    for done, loss in descend(values, gradient, counts, rate=RATE):
         trained = FieldNetwork(
             values=values.copy(),
             sizes=network.sizes,

@@ -64,6 +64,7 @@ def backward(
     layers: Layers,
     outputs: list[np.ndarray],
     slope: Float[np.ndarray, "n b"],
+    *,
     activation: Activation,
     into: Layers,
 ) -> Float[np.ndarray, "n c"]:
@@ -86,7 +87,7 @@ def backward(
 
 
 def descend(
-    values: np.ndarray, gradient: Gradient, counts: Sequence[int], rate: float
+    values: np.ndarray, gradient: Gradient, counts: Sequence[int], *, rate: float
 ) -> Iterator[tuple[int, float]]:
     """Yield how many steps Adam has taken, and the mean loss since; `values` are moved in place.
 

@@ -89,7 +89,9 @@ class PointNet:
             self._layers(self.values),
             self._layers(gradient),
         )
-        by_pooled = backward(of_head, done.head, slope, "relu", into_head) @ of_head[0][0].T
+        by_pooled = (
+            backward(of_head, done.head, slope, activation="relu", into=into_head) @ of_head[0][0].T
+        )
         if self.pool == "none":
             return gradient
         by_features = np.zeros_like(done.features)
@@ -102,8 +104,8 @@ class PointNet:
             of_points,
             done.points,
             by_features.reshape(-1, by_features.shape[2]),
-            "relu",
-            into_points,
+            activation="relu",
+            into=into_points,
         )
         return gradient
 
@@ -173,7 +175,7 @@ def train_classifier(
         slope[rows, of] -= 1
         return loss, network.slopes(done, slope / len(of))
 
-    for updates, loss in descend(values, gradient, counts, RATE):
+    for updates, loss in descend(values, gradient, counts, rate=RATE):
         trained = PointNet(values=values.copy(), pointwise=pointwise, head=head, pool=pool)
         yield Classified(
             updates=updates,

@@ -65,7 +65,7 @@ class RadianceField:
         ray_weights: RayWeights = ray_weights,
     ) -> tuple[Float[np.ndarray, "r s"], Float[np.ndarray, "r 3"]]:
         """Return the weights along rays and the colours that they see."""
-        q, spacing = samples_on(p, d, self.reach, SAMPLES)
+        q, spacing = samples_on(p, d, self.reach, count=SAMPLES)
         density, color = self.at(q)
         weights = np.asarray(ray_weights(density, spacing), float)
         return weights, seen(weights, color)
@@ -104,7 +104,9 @@ def reconstruct(
 
     def gradient() -> tuple[float, np.ndarray]:
         rays = rng.integers(len(p), size=RAYS)
-        q, spacing = samples_on(p[rays], d[rays], reach, SAMPLES, rng.random((RAYS, SAMPLES)))
+        q, spacing = samples_on(
+            p[rays], d[rays], reach, count=SAMPLES, shift=rng.random((RAYS, SAMPLES))
+        )
         nodes, shares = _between(q)
         density, color, by_raw = _at(raw, nodes, shares)
         off = seen(np.asarray(ray_weights(density, spacing), float), color) - colors[rays]
@@ -116,7 +118,7 @@ def reconstruct(
         )
         return float((off * off).mean()), np.stack(list(into), axis=1)
 
-    for updates, loss in descend(raw, gradient, counts, RATE):
+    for updates, loss in descend(raw, gradient, counts, rate=RATE):
         yield Reconstructed(
             updates=updates, loss=loss, field=RadianceField(raw=raw.copy(), reach=reach)
         )

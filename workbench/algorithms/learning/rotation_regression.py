@@ -90,10 +90,10 @@ def regress(
             # |R - R_true|², 8 sin²(a / 2) of the angle a between them
             off = representation.decode(y) - R_true
             slope = representation.pullback(y, 2 * off / BATCH)
-        backward(layers, outputs, slope, "relu", into)
+        backward(layers, outputs, slope, activation="relu", into=into)
         return float((off * off).sum() / BATCH), slopes
 
-    for updates, loss in descend(values, gradient, counts, rate):
+    for updates, loss in descend(values, gradient, counts, rate=rate):
         y = forward(layers, _inputs(R_test), "relu")[-1]
         R = np.asarray(representation.decode(y), float)
         yield Regressed(updates=updates, loss=loss, outputs=y, R=R, errors=degrees_apart(R, R_test))

@@ -70,5 +70,5 @@ def learn_set(
                 slope += 2 * off / len(p) / BATCH
         return loss, slope
 
-    for updates, loss in descend(p, gradient, counts, RATE):
+    for updates, loss in descend(p, gradient, counts, rate=RATE):
         yield SetLearned(updates=updates, loss=loss, p=p.copy(), targets=targets)

@@ -113,7 +113,7 @@ def adjust(
     shared = shared_numbers(K, lens)
     R = Ts_camera_board[:, :3, :3]
     t = Ts_camera_board[:, :3, 3]
-    block = linearised(shared, R, t, p_board, uv)
+    block = linearised(shared, R, t, p_board=p_board, uv=uv)
     damping = 1e-4
     accepted = True
     stop = None
@@ -144,7 +144,7 @@ def adjust(
         moved = shared, R, t
         if step is not None:
             moved = shared + step[0], turns(step[1][:, :3]) @ R, t + step[1][:, 3:]
-        trial = linearised(*moved, p_board, uv)
+        trial = linearised(*moved, p_board=p_board, uv=uv)
         trial_cost, trial_weights = loss(trial, corner)
         accepted = trial_cost < cost and bool(moved[0][:2].min() > 0)
         if accepted:
@@ -167,6 +167,7 @@ def linearised(
     shared: Float[np.ndarray, "9"],
     R_camera_board: Float[np.ndarray, "k 3 3"],
     t: Float[np.ndarray, "k 3"],
+    *,
     p_board: Float[np.ndarray, "n 3"],
     uv: Float[np.ndarray, "k n 2"],
 ) -> Float[np.ndarray, "k 16 m"]:

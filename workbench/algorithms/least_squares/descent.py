@@ -106,9 +106,9 @@ def descend(
     linearise: Linearise,
     retract: Retract,
     start: np.ndarray,
+    *,
     damped_step: DampedStep,
     damping: float = FIRST_DAMPING,
-    *,
     iterations: int = 100,
     tolerance: float = 1e-6,
 ) -> Iterator[Descent]:
@@ -290,8 +290,8 @@ def descend_many(
     linearise: Linearise,
     retract: Retract,
     starts: Float[np.ndarray, "k m"],
-    damping: float = FIRST_DAMPING,
     *,
+    damping: float = FIRST_DAMPING,
     iterations: int = 100,
     tolerance: float = 1e-6,
 ) -> Iterator[Descents]:

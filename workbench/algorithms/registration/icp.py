@@ -191,7 +191,15 @@ def icp(
         stop = Stop.TOO_FEW_MATCHES if np.count_nonzero(kept) < fewest else None
         residual = misfit(p_match, p_moved, n_kept, distances=distances, kept=kept)
         yield summary(
-            "match", iteration, T_target_source, indices, distances, limit, kept, residual, stop
+            "match",
+            iteration,
+            T_target_source,
+            indices=indices,
+            distances=distances,
+            limit=limit,
+            kept=kept,
+            residual=residual,
+            stop=stop,
         )
         if stop:
             return
@@ -207,12 +215,12 @@ def icp(
                 "fit",
                 iteration,
                 T_target_source,
-                indices,
-                distances,
-                limit,
-                kept,
-                residual,
-                Stop.NOT_FINITE,
+                indices=indices,
+                distances=distances,
+                limit=limit,
+                kept=kept,
+                residual=residual,
+                stop=Stop.NOT_FINITE,
             )
             return
         largest_move = lengths(apply(T_new, corners) - apply(T_target_source, corners)).max()
@@ -230,7 +238,15 @@ def icp(
         last_seen[matches] = iteration
         residual = misfit(p_match, p_moved, n_kept, distances=distances, kept=kept)
         yield summary(
-            "fit", iteration, T_target_source, indices, distances, limit, kept, residual, stop
+            "fit",
+            iteration,
+            T_target_source,
+            indices=indices,
+            distances=distances,
+            limit=limit,
+            kept=kept,
+            residual=residual,
+            stop=stop,
         )
         if stop:
             return
@@ -301,6 +317,7 @@ def summary(
     phase: Literal["match", "fit"],
     iteration: int,
     T_target_source: np.ndarray,
+    *,
     indices: np.ndarray,
     distances: np.ndarray,
     limit: float,

@@ -62,6 +62,7 @@ def procrustes(
     p_target: Float[np.ndarray, "n 3"],
     p_source: Float[np.ndarray, "n 3"],
     similarity_scale: Scale,
+    *,
     flip: Flip = "least",
 ) -> Iterator[State]:
     """Yield the map from source to target after each stage; points in metres, pairs row by row.

@@ -31,7 +31,7 @@ CENSUS_BITS = 24
 """Bits of the census code: the neighbours in a 5 x 5 window."""
 
 
-def sad_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1) -> Costs:
+def sad_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1) -> Costs:  # noqa: PLR0917
     """Return the sum of absolute grey differences over a window: cheap, and needs equal exposure.
 
     Raises:
@@ -44,19 +44,23 @@ def sad_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1
         >>> sad_cost_volume(left, right, max_disparity=1)[:, 0, 2].tolist()
         [9, 0]
     """
-    return _windowed(left, right, max_disparity, window, _absolute_difference, 255)
+    return _windowed(
+        left, right, max_disparity, window=window, difference=_absolute_difference, largest=255
+    )
 
 
-def ssd_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1) -> Costs:
+def ssd_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1) -> Costs:  # noqa: PLR0917
     """Return the sum of squared grey differences over a window; outliers weigh more.
 
     Raises:
         ValueError: As `sad_cost_volume`.
     """
-    return _windowed(left, right, max_disparity, window, _squared_difference, 255**2)
+    return _windowed(
+        left, right, max_disparity, window=window, difference=_squared_difference, largest=255**2
+    )
 
 
-def census_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1) -> Costs:
+def census_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1) -> Costs:  # noqa: PLR0917
     """Return the number of bits in which the census codes differ, summed over a window.
 
     Only the order of grey values within a window matters. The costs are whole numbers (24 per pixel
@@ -68,10 +72,17 @@ def census_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int 
     Reference: Zabih and Woodfill, Non-parametric local transforms for computing visual
     correspondence, ECCV 1994.
     """
-    return _windowed(census(left), census(right), max_disparity, window, _hamming, CENSUS_BITS)
+    return _windowed(
+        census(left),
+        census(right),
+        max_disparity,
+        window=window,
+        difference=_hamming,
+        largest=CENSUS_BITS,
+    )
 
 
-def ncc_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 3) -> Costs:
+def ncc_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 3) -> Costs:  # noqa: PLR0917
     """Return 1 - the normalised correlation of the windows: 0 (alike up to exposure) to 2.
 
     A window without contrast correlates with nothing: its cost is 1. One pixel has no correlation,
@@ -80,7 +91,7 @@ def ncc_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 3
     Raises:
         ValueError: As `sad_cost_volume`.
     """
-    _check(left, right, max_disparity, window)
+    _check(left, right, max_disparity, window=window)
     window = max(window, 3)
     # keeps the sums small
     a, b = (picture - picture.mean() for picture in (left.astype(float), right.astype(float)))
@@ -184,12 +195,13 @@ def _windowed(
     left: np.ndarray,
     right: np.ndarray,
     max_disparity: int,
+    *,
     window: int,
     difference: Callable[[np.ndarray, np.ndarray], np.ndarray],
     largest: int,
 ) -> np.ndarray:
     """Sum a difference over a window, for every disparity; `largest` bounds whole numbers."""
-    _check(left, right, max_disparity, window)
+    _check(left, right, max_disparity, window=window)
     h, w = left.shape
     whole = left.dtype.kind == "u" and right.dtype.kind == "u"
     worst = largest * window**2 if whole else np.inf
@@ -219,7 +231,7 @@ def _hamming(
     return np.bitwise_count(a ^ b)
 
 
-def _check(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> None:
+def _check(left: np.ndarray, right: np.ndarray, max_disparity: int, *, window: int) -> None:
     if left.shape != right.shape:
         raise ValueError(f"the two pictures differ in size: {left.shape} and {right.shape}")
     if window < 1 or window % 2 == 0:

@@ -85,6 +85,7 @@ def match(
     left: Real[np.ndarray, "h w"],
     right: Real[np.ndarray, "h w"],
     max_disparity: int,
+    *,
     window: int,
     penalties: Penalties | None,
     compare: CostVolume = sad_cost_volume,
@@ -141,6 +142,7 @@ def reconstruct(
     disparity: Float[np.ndarray, "h w"],
     f: float,
     baseline: float,
+    *,
     disparity_error: float,
     depth_of: DepthOf = depth_from_disparity,
 ) -> Iterator[Depths]:

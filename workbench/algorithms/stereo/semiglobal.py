@@ -162,7 +162,7 @@ def sweep(
     }
 
 
-def energy(cost: Costs, disparity: Real[np.ndarray, "h w"], P1: float, P2: float) -> float:
+def energy(cost: Costs, disparity: Real[np.ndarray, "h w"], P1: float, *, P2: float) -> float:
     """Return E(D) of eq. 11 per known pixel of a disparity map.
 
     Every pair among the eight neighbours counts once, at the nearest whole disparity; NaN is

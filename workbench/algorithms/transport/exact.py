@@ -125,17 +125,16 @@ def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) 
         ValueError: If a cloud is empty or not finite, or counts differ and are too large.
     """
     check_clouds(p_a, p_b)
-    return _matched(
-        *(part for p in (p_a, p_b) for part in (np.asarray(p, float).tobytes(), p.shape))
-    )
+    a, b = ((np.asarray(p, float).tobytes(), p.shape) for p in (p_a, p_b))
+    return _matched(a, b)
 
 
 @functools.lru_cache(maxsize=8)
-def _matched(
-    a: bytes, shape_a: tuple[int, ...], b: bytes, shape_b: tuple[int, ...]
-) -> TransportPlan:
-    """Return the best matching, kept: who asks how far two clouds are apart asks for it again."""
-    p_a, p_b = np.frombuffer(a).reshape(shape_a), np.frombuffer(b).reshape(shape_b)
+def _matched(a: tuple[bytes, tuple[int, ...]], b: tuple[bytes, tuple[int, ...]]) -> TransportPlan:
+    """Return the best matching of clouds, each as bytes and shape; kept: who asks how far two
+    clouds are apart asks for it again.
+    """
+    p_a, p_b = (np.frombuffer(content).reshape(shape) for content, shape in (a, b))
     distances = scipy.spatial.distance.cdist(p_a, p_b)
     if len(p_a) == len(p_b):
         i_a, i_b = best_assignment(distances)
@@ -312,7 +311,7 @@ def blurred_potentials(
     for blur, sweeps in blurs if typical > 0 else ():
         regularisation = float(blur * typical)
         f, g = tight_potentials(rough, g)
-        K = kernel(rough, f, g, regularisation)
+        K = kernel(rough, f, g, regularisation=regularisation)
         K_transposed = np.ascontiguousarray(K.T)
         u, v = np.ones_like(f), np.ones_like(g)
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):

@@ -61,8 +61,8 @@ def flow(
     p_moving: Float[np.ndarray, "n 3"],
     p_target: Float[np.ndarray, "m 3"],
     distance: Distance,
-    gradient: Gradient,
     *,
+    gradient: Gradient,
     longest_step: float = 0.06,
     share: float = 0.6,
     max_steps: int = 60,
@@ -87,7 +87,9 @@ def flow(
     for step in range(max_steps + 1):
         slope = gradient(p_moving, p_target)
         length = min(polyak_length(value, slope, share), length_of(longest_step, slope))
-        p_next, value_next = descend(distance, gradient, p_moving, p_target, value, slope, length)
+        p_next, value_next = descend(
+            distance, gradient, p_moving, p_target=p_target, value=value, slope=slope, length=length
+        )
         stop = why_stop(value, value_next, step == max_steps)
         yield Flow(step, p_moving, value, slope, moved, stop)
         if stop:
@@ -100,6 +102,7 @@ def descend(
     distance: Distance,
     gradient: Gradient,
     p_moving: Float[np.ndarray, "n 3"],
+    *,
     p_target: Float[np.ndarray, "m 3"],
     value: float,
     slope: Float[np.ndarray, "n 3"],
@@ -175,6 +178,7 @@ def numeric_gradient(
     distance: Distance,
     p_a: Float[np.ndarray, "n 3"],
     p_b: Float[np.ndarray, "m 3"],
+    *,
     h: float = 1e-6,
 ) -> Float[np.ndarray, "n 3"]:
     """Return the gradient of any distance by p_a, by central differences of 2 h metres.

@@ -87,7 +87,7 @@ def sinkhorn_steps(
         )
     n, m = cost.shape
     f, g = tight_potentials(cost, np.zeros(m))
-    K = kernel(cost, f, g, regularisation)
+    K = kernel(cost, f, g, regularisation=regularisation)
     v = np.ones(m)
     Kv = K @ v
 
@@ -106,7 +106,7 @@ def sinkhorn_steps(
             return
         if too_wide:  # Schmitzer 2019, algorithm 2: absorb
             f, g = f_now, g_now
-            K = kernel(cost, f, g, regularisation)
+            K = kernel(cost, f, g, regularisation=regularisation)
             v = np.ones(m)
             Kv = K @ v
 
@@ -139,7 +139,7 @@ def tight_potentials(
 
 
 def kernel(
-    cost: Cost, f: Float[np.ndarray, "n"], g: Float[np.ndarray, "m"], regularisation: float
+    cost: Cost, f: Float[np.ndarray, "n"], g: Float[np.ndarray, "m"], *, regularisation: float
 ) -> Cost:
     """Return exp((f_i + g_j - cost_ij) / regularisation), kept above the slow denormals."""
     K = f[:, None] + g

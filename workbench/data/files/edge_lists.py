@@ -39,7 +39,7 @@ def read_edges(path: Path, most_nodes: int) -> EdgeList:
     Raises:
         InputError: If the file is missing, of another kind, not understood, or too large.
     """
-    rows = text_rows(path, "edges", KINDS, "#%")
+    rows = text_rows(path, "edges", KINDS, comments="#%")
     if len(rows) > MOST_EDGES:
         raise InputError(f"{path.name}: {len(rows):,} lines; at most {MOST_EDGES:,} edges are read")
     number: dict[str, int] = {}

@@ -70,7 +70,7 @@ def ply_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         columns = [field for field, _ in vertices.fields]
         return _first_rows(body, vertices.count, [columns.index(axis) for axis in "xyz"], name=name)
     order = "<" if kind == "binary_little_endian" else ">"
-    table = _table(body, [(f, order + t) for f, t in vertices.fields], vertices.count, name)
+    table = _table(body, [(f, order + t) for f, t in vertices.fields], vertices.count, name=name)
     return np.column_stack([table[axis] for axis in "xyz"]).astype(float)
 
 
@@ -126,7 +126,9 @@ def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         starts = dict(zip(fields, np.cumsum([0, *counts[:-1]]), strict=True))
         return _first_rows(body, n, [int(starts[axis]) for axis in "xyz"], name=name)
     if kind == "binary":
-        table = _table(body, [(f"{f}{i}", t, (c,)) for i, (f, t, c) in enumerate(columns)], n, name)
+        table = _table(
+            body, [(f"{f}{i}", t, (c,)) for i, (f, t, c) in enumerate(columns)], n, name=name
+        )
         return np.column_stack(
             [table[f"{axis}{fields.index(axis)}"][:, 0] for axis in "xyz"]
         ).astype(float)
@@ -200,7 +202,7 @@ def obj_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         rows = [line[2:] for line in lines if line.startswith(("v ", "v\t"))]
         faces += sum(line.startswith(("f ", "f\t")) for line in lines)
         if rows:
-            points.append(_numbers(rows, None, [0, 1, 2], name))
+            points.append(_numbers(rows, None, [0, 1, 2], name=name))
             not_too_many(sum(map(len, points)), name)
     if faces:
         raise mesh_error(name, sum(map(len, points)), faces)
@@ -233,7 +235,7 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
             rows = rows[titles:]
         if rows and columns is not None:
             plain = [row.replace(",", ".") for row in rows] if separator == ";" else rows
-            points.append(_numbers(plain, separator, columns, name))
+            points.append(_numbers(plain, separator, columns, name=name))
     return np.concatenate(points)
 
 
@@ -295,7 +297,7 @@ def _first_rows(body: bytes, n: int, columns: list[int], *, name: str) -> np.nda
         rows = lines[:missing]
         if not rows:
             break
-        points.append(_numbers(rows, None, columns, name))
+        points.append(_numbers(rows, None, columns, name=name))
         missing -= len(rows)
     _need_all(n - missing, n, name)
     return np.concatenate(points)
@@ -327,7 +329,9 @@ def mesh_error(name: str, vertices: int, faces: int) -> InputError:
     )
 
 
-def _numbers(rows: list[str], separator: str | None, columns: list[int], name: str) -> np.ndarray:
+def _numbers(
+    rows: list[str], separator: str | None, columns: list[int], *, name: str
+) -> np.ndarray:
     """Read columns of a table of text; the first row that does not fit is named."""
     try:
         return np.loadtxt(rows, delimiter=separator, usecols=columns, ndmin=2, comments=None)
@@ -355,7 +359,7 @@ def words_of(line: str) -> list[str]:
     return line.replace(",", " ").replace(";", " ").split()
 
 
-def _table(body: bytes, fields: list, n: int, name: str) -> np.ndarray:
+def _table(body: bytes, fields: list, n: int, *, name: str) -> np.ndarray:
     record = np.dtype(fields)
     _need_all(len(body) // record.itemsize, n, name)
     return np.frombuffer(body, record, n)

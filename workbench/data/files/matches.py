@@ -57,7 +57,7 @@ def read_matches(path: Path, fewest: int = 4) -> Matches:
     stamp(path)
     matches = _from_arrays(path) if path.suffix.lower() == ".npz" else _from_text(path)
     good = np.isfinite(matches.p).all(axis=1)
-    p = finite(matches.p, path.name, "match", "matches")
+    p = finite(matches.p, path.name, "match", many="matches")
     matches = replace(
         matches, p=p, quality=None if matches.quality is None else matches.quality[good]
     )
@@ -142,6 +142,7 @@ def _truth(
     path: Path,
     arrays: dict[str, np.ndarray],
     names: tuple[str, ...],
+    *,
     shape: tuple[int, ...] = (3, 3),
 ) -> np.ndarray | None:
     matrix = _named(arrays, names)
@@ -171,7 +172,7 @@ def _camera(path: Path, arrays: dict[str, np.ndarray], name: str) -> np.ndarray 
 
 def _motion(path: Path, arrays: dict[str, np.ndarray]) -> np.ndarray | None:
     R = _truth(path, arrays, ("R", "R_rel"))
-    t = _truth(path, arrays, ("t", "t_rel"), (3,))
+    t = _truth(path, arrays, ("t", "t_rel"), shape=(3,))
     if R is None or t is None:
         return None
     if np.abs(R @ R.T - np.eye(3)).max() > 1e-3 or np.linalg.det(R) < 0:

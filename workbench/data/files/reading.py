@@ -1,17 +1,15 @@
-"""Files that people bring: clouds, meshes, images and poses, read or refused in one line."""
+"""Files that people bring: clouds, meshes, voxels and images, read or refused in one line."""
 
 import contextlib
 import functools
 import gzip
 import io
-import re
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy
 from jaxtyping import Float, Int, Shaped, UInt8
 
 from workbench.apart import allowance, apart, note, told
@@ -29,13 +27,12 @@ from workbench.data.files.formats import (
     words_of,
 )
 from workbench.errors import InputError
-from workbench.geometry.motions import inverse, motion
 
 if TYPE_CHECKING:
     from PIL import Image
 
+
 NO_VERTEX = "a face names a vertex that is not there"
-MOST_OF_POSES = 2 * 10**6  # bytes
 IMAGES = ("PNG", "JPEG", "WEBP", "TIFF", "BMP", "GIF", "PPM")
 """What pictures are read from; Pillow would also hand a file to other programs (EPS to
 Ghostscript).
@@ -61,7 +58,7 @@ def read_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n 3"]:
     changed = stamp(path)
     p = _cloud(path, *changed)
     if len(p) < fewest:
-        raise InputError(f"{path.name}: {_count(len(p), 'point')}; at least {fewest} are needed")
+        raise InputError(f"{path.name}: {in_number(len(p), 'point')}; at least {fewest} are needed")
     return p
 
 
@@ -74,7 +71,7 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
     """
     path = Path(path)
     stamp(path)
-    content, kind = _content(path)
+    content, kind = content_of(path)
     if kind not in _MESHES:
         raise InputError(
             f"{path.name}: {kind or 'a file without ending'} is no mesh format that is read (off,"
@@ -100,7 +97,7 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
         raise InputError(f"{path.name}: not readable as a {kind[1:]} mesh ({why})") from None
     if len(faces) == 0:
         raise InputError(
-            f"{path.name}: {_count(len(p), 'point')} without faces, where a mesh is wanted"
+            f"{path.name}: {in_number(len(p), 'point')} without faces, where a mesh is wanted"
         )
     if not np.isfinite(p).all() or faces.min() < 0 or faces.max() >= len(p):
         raise InputError(f"{path.name}: a vertex is not finite, or {NO_VERTEX}")
@@ -129,7 +126,7 @@ def read_voxels(path: Path) -> Shaped[np.ndarray, "x y z"]:
     """
     path = Path(path)
     stamp(path)
-    content, kind = _content(path)
+    content, kind = content_of(path)
     if kind not in (".npy", ".npz"):
         raise InputError(f"{path.name}: {kind or 'no ending'}; voxels are read from npy and npz")
     arrays = read_arrays(content, path.name)
@@ -192,90 +189,6 @@ def opened_image(source: Path | io.BytesIO, name: str) -> "Iterator[Image.Image]
         raise InputError(f"{name}: not readable as an image ({type(error).__name__})") from None
 
 
-@apart
-def read_pose(
-    path: Path, target: Path | None = None, source: Path | None = None
-) -> Float[np.ndarray, "4 4"]:
-    """Return the T_target_source that a file gives.
-
-    The file is 16 numbers row by row (text or npy), or a list of poses by the name of a scan, each
-    from the scan into one common frame: rows of 12 or 16 numbers, or a Stanford .conf (translation,
-    then a quaternion x, y, z, w that is stored conjugated). A list needs `target`, the scan in
-    whose frame the pose is, and `source`, the scan that it moves.
-
-    Raises:
-        InputError: If the file is missing, not understood, no pose, or a list without the two
-            scans.
-    """
-    path = Path(path)
-    stamp(path)
-    content, kind = _content(path)
-    if kind == ".npy":
-        T = _load_array(content, path.name)
-        if T.dtype.kind not in "fiu":
-            raise InputError(f"{path.name}: not a pose; 4 x 4 numbers are wanted")
-    else:
-        if len(content) > MOST_OF_POSES:
-            raise InputError(
-                f"{path.name}: {len(content) / 1e6:,.0f} MB; a pose, or a list of them, has fewer"
-            )
-        text = text_of(content, path.name)
-        poses = _listed_poses(text)
-        if poses:
-            return inverse(_pose_of(target, poses, path)) @ _pose_of(source, poses, path)
-        words = [
-            w
-            for line in text.splitlines()
-            if not line.lstrip().startswith("#")
-            for w in re.split(r"[\s,;]+", line)
-        ]
-        try:
-            T = np.array([float(word) for word in words if word])
-        except ValueError:
-            raise InputError(
-                f"{path.name}: not a pose; a text file of 4 x 4 numbers is wanted"
-            ) from None
-    if T.size != 16:
-        raise InputError(f"{path.name}: {_count(T.size, 'number')}, where a pose is 4 x 4")
-    return _checked_pose(T.reshape(4, 4).astype(float), path.name)
-
-
-def _listed_poses(text: str) -> dict[str, np.ndarray]:
-    poses = {}
-    for line in text.splitlines():
-        match re.split(r"[\s,;]+", line.strip()):
-            case ["bmesh", scan, *words] if len(words) == 7:
-                x, y, z, a, b, c, w = map(float, words)
-                R = scipy.spatial.transform.Rotation.from_quat([-a, -b, -c, w]).as_matrix()
-                poses[Path(scan).name] = motion(R, np.array([x, y, z]))
-            case [scan, *words] if (
-                len(words) in (12, 16) and re.search("[A-Za-z]", scan) and _all_numbers(words)
-            ):
-                poses[Path(scan).name] = np.vstack(
-                    [np.array(words[:12], float).reshape(3, 4), [0.0, 0.0, 0.0, 1.0]]
-                )
-    return poses
-
-
-def _pose_of(scan: Path | None, poses: dict[str, np.ndarray], path: Path) -> np.ndarray:
-    if scan is None or Path(scan).name not in poses:
-        name = "the scans" if scan is None else Path(scan).name
-        raise InputError(f"{path.name}: lists poses of {', '.join(poses)}; none for {name}")
-    return _checked_pose(poses[Path(scan).name], path.name)
-
-
-def _checked_pose(T: np.ndarray, name: str) -> np.ndarray:
-    R = T[:3, :3]
-    rigid = (
-        np.isfinite(T).all() and np.allclose(R @ R.T, np.eye(3), atol=1e-3) and np.linalg.det(R) > 0
-    )
-    if not rigid or not np.allclose(T[3], [0, 0, 0, 1], atol=1e-9):
-        raise InputError(
-            f"{name}: not a rigid pose (a rotation, a translation, and 0 0 0 1 as last row)"
-        )
-    return T
-
-
 @functools.lru_cache(maxsize=8)
 def _cloud(path: Path, _modified: int, _size: int) -> np.ndarray:
     p = _points(path)
@@ -285,7 +198,7 @@ def _cloud(path: Path, _modified: int, _size: int) -> np.ndarray:
 
 @apart
 def _points(path: Path) -> np.ndarray:
-    content, kind = _content(path)
+    content, kind = content_of(path)
     if not content.strip():
         raise InputError(f"{path.name}: the file is empty")
     if kind == ".ply":
@@ -309,7 +222,7 @@ def _points(path: Path) -> np.ndarray:
 
 
 def finite(
-    p: Float[np.ndarray, "n d"], name: str, one: str = "point", many: str = "points"
+    p: Float[np.ndarray, "n d"], name: str, one: str = "point", *, many: str = "points"
 ) -> Float[np.ndarray, "m d"]:
     """Return the rows without NaN and infinity; the first step tells how many are left out."""
     good = np.isfinite(p).all(axis=1)
@@ -325,7 +238,7 @@ def finite(
 
 
 def _array_points(content: bytes, name: str) -> np.ndarray:
-    p = np.asarray(_load_array(content, name))
+    p = np.asarray(load_array(content, name))
     if p.ndim != 2 or p.shape[1] < 3 or p.dtype.kind not in "fiu":
         raise InputError(
             f"{name}: an array of {p.dtype} {p.shape}, where (n, 3) numbers are wanted"
@@ -333,7 +246,12 @@ def _array_points(content: bytes, name: str) -> np.ndarray:
     return p[:, :3].astype(float)
 
 
-def _load_array(content: bytes, name: str) -> np.ndarray:
+def load_array(content: bytes, name: str) -> np.ndarray:
+    """Return the array of an npy file, or the one of an npz file that holds points.
+
+    Raises:
+        InputError: If there is none, or it cannot be read.
+    """
     arrays = read_arrays(content, name)
     names = [n for n in ("p", "points", "xyz", "vertices") if n in arrays] or list(arrays)[
         : len(arrays) == 1
@@ -345,7 +263,7 @@ def _load_array(content: bytes, name: str) -> np.ndarray:
     return arrays[names[0]]
 
 
-def _content(path: Path) -> tuple[bytes, str]:
+def content_of(path: Path) -> tuple[bytes, str]:
     """Return the bytes of a file, gzip undone, and its ending in lower case."""
     kind = path.suffix.lower()
     try:
@@ -360,7 +278,7 @@ def _content(path: Path) -> tuple[bytes, str]:
 
 
 def text_rows(
-    path: Path, what: str, kinds: tuple[str, ...] | None, comments: str = "#"
+    path: Path, what: str, kinds: tuple[str, ...] | None, *, comments: str = "#"
 ) -> list[tuple[int, str]]:
     """Return the lines of a text file with their numbers from 1, without empty ones and comments.
 
@@ -375,7 +293,7 @@ def text_rows(
     stamp(path)
     if kinds is not None and path.suffix.lower() not in kinds:
         raise InputError(f"{path.name}: {what} are read from text files ({', '.join(kinds)})")
-    text = text_of(_content(path)[0], path.name)
+    text = text_of(content_of(path)[0], path.name)
     most, count = allowance().lines, text.count("\n")
     if count > most:
         raise InputError(
@@ -423,12 +341,6 @@ def stamp(path: Path) -> tuple[int, int]:
     return stat.st_mtime_ns, stat.st_size
 
 
-def _all_numbers(words: list[str]) -> bool:
-    try:
-        return all(np.isfinite(float(word)) for word in words)
-    except ValueError:
-        return False
-
-
-def _count(n: int, word: str) -> str:
+def in_number(n: int, word: str) -> str:
+    """Return a number of things: `1 point`, `12 points`."""
     return f"{n:,} {word}" if n == 1 else f"{n:,} {word}s"

@@ -29,7 +29,7 @@ class Street:
     poles: Float[np.ndarray, "k 3"]
 
 
-def street(rng: np.random.Generator, houses: int = 8, cars: int = 6, poles: int = 12) -> Street:
+def street(rng: np.random.Generator, houses: int = 8, cars: int = 6, *, poles: int = 12) -> Street:
     """Return a street along x, with houses at both sides, parked cars and poles."""
     sides = [rng.choice([-1.0, 1.0], count) for count in (houses, cars, poles)]
     rows = []

@@ -70,7 +70,13 @@ def torus(
     across = max(3, round(np.sqrt(count * tube / ring)))
     around = max(3, round(count / across))
     uv, faces = _grid(
-        around, across, (0, 2 * np.pi), (0, 2 * np.pi), closed=(True, True), jitter=jitter, rng=rng
+        around,
+        across,
+        (0, 2 * np.pi),
+        v_span=(0, 2 * np.pi),
+        closed=(True, True),
+        jitter=jitter,
+        rng=rng,
     )
     (u, v), zero = uv.T, np.zeros(len(uv))
     outward = np.c_[np.cos(u), np.sin(u), zero]
@@ -100,7 +106,7 @@ def cylinder(
     up = max(2, round(count / around))
     span = (-height / 2, height / 2)
     uv, faces = _grid(
-        around, up, (0, 2 * np.pi), span, closed=(True, False), jitter=jitter, rng=rng
+        around, up, (0, 2 * np.pi), v_span=span, closed=(True, False), jitter=jitter, rng=rng
     )
     (u, z), zero = uv.T, np.zeros(len(uv))
     normals = np.c_[np.cos(u), np.sin(u), zero]
@@ -126,7 +132,7 @@ def catenoid(
         around,
         up,
         (0, 2 * np.pi),
-        (-span / 2, span / 2),
+        v_span=(-span / 2, span / 2),
         closed=(True, False),
         jitter=jitter,
         rng=rng,
@@ -149,7 +155,13 @@ def saddle(
     """Sample z = bend (x^2 - y^2) / 2 over |x|, |y| <= half: K = -bend^2 in the middle."""
     side = max(2, round(np.sqrt(count)))
     xy, faces = _grid(
-        side, side, (-half, half), (-half, half), closed=(False, False), jitter=jitter, rng=rng
+        side,
+        side,
+        (-half, half),
+        v_span=(-half, half),
+        closed=(False, False),
+        jitter=jitter,
+        rng=rng,
     )
     x, y = xy.T
     slope = np.c_[bend * x, -bend * y]
@@ -228,8 +240,8 @@ def _grid(
     n_u: int,
     n_v: int,
     u_span: tuple[float, float],
-    v_span: tuple[float, float],
     *,
+    v_span: tuple[float, float],
     closed: tuple[bool, bool],
     jitter: float,
     rng: np.random.Generator | None,

@@ -57,7 +57,7 @@ def board_corners(
             .astype(float)
         )
         uv, wave = _saddles(small)
-        for table in _tables(uv, wave, columns, rows):
+        for table in _tables(uv, wave, columns, rows=rows):
             corners = k * (uv[_from_the_first(uv, wave, table)] + 0.5) - 0.5
             edges = [np.linalg.norm(np.diff(corners, axis=axis), axis=2).min() for axis in (0, 1)]
             return refined(grey, corners.reshape(-1, 2), max(2, round(REACH * min(edges))))
@@ -127,7 +127,7 @@ def _saddles(grey: np.ndarray) -> tuple[Float[np.ndarray, "n 2"], Complex[np.nda
     return np.column_stack([u, v])[kept].astype(float), wave[kept] / np.abs(wave[kept])
 
 
-def _tables(uv: np.ndarray, wave: np.ndarray, columns: int, rows: int) -> Iterator[Table]:
+def _tables(uv: np.ndarray, wave: np.ndarray, columns: int, *, rows: int) -> Iterator[Table]:
     """Yield whole boards as tables of saddles, grown from one saddle and two beside it."""
     if len(uv) < columns * rows:
         return
@@ -144,7 +144,7 @@ def _tables(uv: np.ndarray, wave: np.ndarray, columns: int, rows: int) -> Iterat
             if abs(turn) > 0.4 * np.linalg.norm(x) * np.linalg.norm(y):
                 right, down = (nearest, other) if turn > 0 else (other, nearest)
                 grid = {(0, 0): seed, (0, 1): int(right), (1, 0): int(down)}
-                grid = _grown(uv, wave, tree, grid)
+                grid = _grown(uv, wave, tree, grid=grid)
                 yield from _whole(grid, columns, rows)
                 if len(grid) >= columns * rows:
                     known |= set(grid.values())
@@ -156,7 +156,7 @@ def _differ(wave: Any, other: Any) -> Any:
 
 
 def _grown(
-    uv: np.ndarray, wave: np.ndarray, tree: "scipy.spatial.cKDTree", grid: dict
+    uv: np.ndarray, wave: np.ndarray, tree: "scipy.spatial.cKDTree", *, grid: dict
 ) -> dict[tuple[int, int], int]:
     """Return the grid with all saddles that lie where those next to them let expect one."""
     used = set(grid.values())

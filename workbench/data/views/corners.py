@@ -168,7 +168,9 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
             f"{path.name or path}: {len(names)} pictures; up to {MOST_VIEWS} are calibrated from"
         )
     size = pictures_of(path, names).size
-    by_name = {name: _found(path, name, stamp_of(path, name), columns, rows) for name in names}
+    by_name = {
+        name: _found(path, name, stamp_of(path, name), columns=columns, rows=rows) for name in names
+    }
     with_board = {name: uv for name, uv in by_name.items() if uv is not None}
     if len(with_board) < 2:
         raise InputError(
@@ -190,7 +192,7 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
 
 @functools.lru_cache(maxsize=4 * MOST_VIEWS)
 def _found(
-    path: Path, name: str, _stamp: tuple[int, int], columns: int, rows: int
+    path: Path, name: str, _stamp: tuple[int, int], *, columns: int, rows: int
 ) -> np.ndarray | None:
     return board_corners(grey_picture(path, name), columns, rows)
 

@@ -28,8 +28,8 @@ def seen(
     p_world: Float[np.ndarray, "n 3"],
     T_camera_world: Float[np.ndarray, "4 4"],
     K: Float[np.ndarray, "3 3"],
-    rng: np.random.Generator,
     *,
+    rng: np.random.Generator,
     sigma: float,
     is_outlier: Bool[np.ndarray, " n"],
 ) -> Sightings:

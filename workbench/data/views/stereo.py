@@ -76,8 +76,10 @@ def synthetic_views(
     things = SCENES[scene](rng, 1.0 / camera.f)
     u, v = _pixels(size)
     p_right = np.array([camera.baseline, 0.0, 0.0])
-    depth, left = look(things, np.zeros(3), rays(u, v, camera.f, camera.cx, camera.cy))
-    _, right = look(things, p_right, rays(u, v, camera.f, camera.cx + camera.doffs, camera.cy))
+    depth, left = look(things, np.zeros(3), rays(u, v, camera.f, cx=camera.cx, cy=camera.cy))
+    _, right = look(
+        things, p_right, rays(u, v, camera.f, cx=camera.cx + camera.doffs, cy=camera.cy)
+    )
     d = camera.f * camera.baseline / depth  # without doffs
     return StereoViews(
         left=left,
@@ -98,7 +100,7 @@ def shares_hidden(
     left = cameras[0]
     things = SCENES[scene](np.random.default_rng(0), 1.0 / left.f)  # which colours is all the same
     u, v = _pixels(size)
-    depth = nearest_depth(things, np.zeros(3), rays(u, v, left.f, left.cx, left.cy))
+    depth = nearest_depth(things, np.zeros(3), rays(u, v, left.f, cx=left.cx, cy=left.cy))
     return np.array([1.0 - _seen_by_both(things, camera, depth).mean() for camera in cameras])
 
 
@@ -115,7 +117,7 @@ def _seen_by_both(
     u, v = _pixels((w, h))
     p_right = np.array([camera.baseline, 0.0, 0.0])
     d = camera.f * camera.baseline / depth  # without doffs
-    behind = nearest_depth(things, p_right, rays(u - d, v, camera.f, camera.cx, camera.cy))
+    behind = nearest_depth(things, p_right, rays(u - d, v, camera.f, cx=camera.cx, cy=camera.cy))
     partner = u - (d - camera.doffs)
     return (
         (partner >= 0)
@@ -146,7 +148,9 @@ def motorcycle() -> StereoPair:
     return StereoPair(left, right, camera, d)
 
 
-def read_pair(left: Path, right: Path, f: float, baseline: float, doffs: float = 0.0) -> StereoPair:
+def read_pair(
+    left: Path, right: Path, f: float, *, baseline: float, doffs: float = 0.0
+) -> StereoPair:
     """Return a rectified pair from two image files; grey ones become RGB.
 
     Args:

@@ -252,7 +252,7 @@ as fine as the picture.
 
 
 def rays(
-    u: Float[np.ndarray, "*n"], v: Float[np.ndarray, "*n"], f: float, cx: float, cy: float
+    u: Float[np.ndarray, "*n"], v: Float[np.ndarray, "*n"], f: float, *, cx: float, cy: float
 ) -> np.ndarray:
     """Return the directions (..., 3), Z = 1, of the rays of pixels (u, v)."""
     return np.stack([(u - cx) / f, (v - cy) / f, np.ones_like(u)], axis=-1)

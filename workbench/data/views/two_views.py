@@ -151,7 +151,12 @@ def _photograph(T_camera_world: bytes, far: bool) -> Image:
     K = intrinsics(FOCAL, (w - 1) / 2, (h - 1) / 2)
     T = np.frombuffer(T_camera_world).reshape(4, 4)
     return render(
-        skyline_items() if far else street_items(), T, K, w, h, background=(238, 243, 248)
+        skyline_items() if far else street_items(),
+        T,
+        K,
+        width=w,
+        height=h,
+        background=(238, 243, 248),
     )
 
 

@@ -132,7 +132,10 @@ def main() -> None:
         try:
             if request["do"] == "load":
                 function = load(
-                    request["source"], request["file"], request["name"], dict(request["modules"])
+                    request["source"],
+                    request["file"],
+                    request["name"],
+                    modules=dict(request["modules"]),
                 )
             elif request["do"] == "call":
                 value = function(*request["args"], **dict(request["options"]))  # type: ignore[misc]
@@ -148,8 +151,8 @@ def load(
     source: str,
     file: str,
     name: str,
-    modules: dict[str, str],
     *,
+    modules: dict[str, str],
     names: dict[str, Any] | None = None,
 ) -> Callable[..., Any]:
     """Run the student's file and return the function asked for; `names` are its builtins."""

@@ -38,7 +38,7 @@ class Distortion(NamedTuple):
 NONE = Distortion()
 
 
-def distort(
+def distort(  # noqa: PLR0917
     xy_camera: Float[np.ndarray, "n 2"],
     k1: float = 0.0,
     k2: float = 0.0,
@@ -130,7 +130,7 @@ def columns(rows: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "d n"]:
     return np.ascontiguousarray(rows.T, dtype=float)
 
 
-def bend(
+def bend(  # noqa: PLR0917
     x: Float[np.ndarray, " n"],
     y: Float[np.ndarray, " n"],
     k1: float,
@@ -148,7 +148,7 @@ def bend(
     return factor * x, factor * y
 
 
-def _slopes(x, y, k1: float, k2: float, p1: float, p2: float, k3: float):
+def _slopes(x, y, k1: float, k2: float, p1: float, p2: float, k3: float):  # noqa: PLR0917
     """Return d x'/d x, d x'/d y = d y'/d x and d y'/d y of eq. 1."""
     s = x * x + y * y
     factor = 1.0 + s * (k1 + s * (k2 + s * k3))

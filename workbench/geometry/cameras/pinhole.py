@@ -151,7 +151,7 @@ def in_front(
     return depths(p_world, T_camera_world) > near
 
 
-def project(
+def project(  # noqa: PLR0917
     p_world: Float[np.ndarray, "n 3"],
     T_camera_world: Float[np.ndarray, "4 4"],
     K: Float[np.ndarray, "3 3"],
@@ -208,6 +208,7 @@ def dolly(
     T_camera_world: Float[np.ndarray, "4 4"],
     K: Float[np.ndarray, "3 3"],
     subject_depth: float,
+    *,
     factor: float,
 ) -> tuple[Float[np.ndarray, "4 4"], Float[np.ndarray, "3 3"]]:
     """Return (T_camera_world, K) moved back along the axis with f lengthened by a factor.

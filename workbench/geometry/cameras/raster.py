@@ -110,10 +110,10 @@ def render(
     items: Iterable[Item],
     T_camera_world: Float[np.ndarray, "4 4"],
     K: Float[np.ndarray, "3 3"],
+    *,
     width: int,
     height: int,
     distortion: Distortion = NONE,
-    *,
     near: float = 0.05,
     background: tuple[int, int, int] = (255, 255, 255),
     to_pixels: ToPixels | None = None,
@@ -134,7 +134,9 @@ def render(
     if not near > 0:
         raise ValueError(f"the near plane must lie in front of the camera, got {near} m")
     see = to_pixels or (lambda p_world: project(p_world, T_camera_world, K, distortion))
-    window = _window(K, width, height, distortion) * (1.0 if to_pixels is None else STRAY)
+    window = _window(K, width, height, distortion=distortion) * (
+        1.0 if to_pixels is None else STRAY
+    )
     eye = _Eye(see, T_camera_world, width, height, near, any(distortion), window)
     draw = {MeshItem: _draw_mesh, SegmentItem: _draw_segments, PointItem: _draw_points}
     parts = [draw[type(item)](item, eye) for item in _meshes_joined(items)]
@@ -194,7 +196,9 @@ def _draw_points(item: PointItem, eye: _Eye) -> _Fragments:
     z = depths(item.p_world, eye.T_camera_world)
     rows = np.flatnonzero(z > eye.near)
     uv = eye.to_pixels(item.p_world[rows])
-    return _stamp(uv, 1.0 / z[rows], np.arange(len(rows)), item.colors[rows], item.width, eye)
+    return _stamp(
+        uv, 1.0 / z[rows], np.arange(len(rows)), colors=item.colors[rows], width=item.width, eye=eye
+    )
 
 
 def _draw_segments(item: SegmentItem, eye: _Eye) -> _Fragments:
@@ -213,7 +217,12 @@ def _draw_segments(item: SegmentItem, eye: _Eye) -> _Fragments:
     share = start[row] + (length / np.maximum(steps - 1, 1))[row] * step
     at = uv[row, 0] + share[:, None] * (uv[row, 1] - uv[row, 0])
     return _stamp(
-        at, w[row, 0] + share * (w[row, 1] - w[row, 0]), owner[row], item.colors, item.width, eye
+        at,
+        w[row, 0] + share * (w[row, 1] - w[row, 0]),
+        owner[row],
+        colors=item.colors,
+        width=item.width,
+        eye=eye,
     )
 
 
@@ -230,14 +239,15 @@ def _project(
     """Return pixels and 1/Z of the corners, cut where the lens bends them, and their owners."""
     corners = p_world.shape[1]
     if eye.bends:
-        p_world, row = cut_finely(p_world, eye.flatten, PIECE, *eye.window)
+        low, high = eye.window
+        p_world, row = cut_finely(p_world, eye.flatten, PIECE, low=low, high=high)
         owner = owner[row]
     flat = p_world.reshape(-1, 3)
     w = 1.0 / depths(flat, eye.T_camera_world)
     return eye.to_pixels(flat).reshape(-1, corners, 2), w.reshape(-1, corners), owner
 
 
-def _stamp(uv, inverse_depth, owner, colors, width: int, eye: _Eye) -> _Fragments:
+def _stamp(uv, inverse_depth, owner, *, colors, width: int, eye: _Eye) -> _Fragments:
     """Put a disc `width` pixels across at each place; NaN places get none."""
     offset = np.arange(width) - 0.5 * (width - 1)
     du, dv = (grid.ravel() for grid in np.meshgrid(offset, offset))
@@ -302,7 +312,7 @@ def _ragged(counts: Int[np.ndarray, " n"]) -> tuple[Int[np.ndarray, " m"], Int[n
     return row, np.arange(len(row)) - first[row]
 
 
-def _window(K, width: int, height: int, distortion: Distortion) -> np.ndarray:
+def _window(K, width: int, height: int, *, distortion: Distortion) -> np.ndarray:
     """Return the lowest and highest normalised x and y that any pixel sees."""
     u, v = np.arange(-0.5, width), np.arange(-0.5, height)
     border = np.concatenate(

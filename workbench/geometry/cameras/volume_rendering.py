@@ -18,6 +18,7 @@ def samples_on(
     p: Float[np.ndarray, "r d"],
     d: Float[np.ndarray, "r d"],
     reach: tuple[float, float],
+    *,
     count: int,
     shift: Float[np.ndarray, "r s"] | float = 0.5,
 ) -> tuple[Float[np.ndarray, "r s d"], float]:

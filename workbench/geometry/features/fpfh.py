@@ -19,7 +19,7 @@ PairAngles = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarr
 """pair_angles(p_i, n_i, p_j, n_j) -> the three angles of each pair, (k, 3)."""
 
 
-def pair_angles(
+def pair_angles(  # noqa: PLR0917
     p_i: Float[np.ndarray, "k 3"],
     n_i: Float[np.ndarray, "k 3"],
     p_j: Float[np.ndarray, "k 3"],
@@ -64,6 +64,7 @@ def fpfh(
     p: Float[np.ndarray, "n 3"],
     n: Float[np.ndarray, "n 3"],
     radius: float,
+    *,
     pair_angles: PairAngles = pair_angles,
 ) -> Float[np.ndarray, "n 33"]:
     """Return one descriptor per point: its histograms, and those of neighbours by nearness.

@@ -94,6 +94,7 @@ def filtered(
     nearest: NearestDescriptors,
     how: Filter,
     ratio: float,
+    *,
     mutual: Int[np.ndarray, " n"] | None = None,
 ) -> Int[np.ndarray, "k 2"]:
     """Return rows (index in the first set, index in the second) of the matches a filter keeps.

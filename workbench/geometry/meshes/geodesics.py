@@ -43,7 +43,7 @@ def _one_way(edges: Edges, lengths: Lengths, count: int) -> Sparse:
     return graph
 
 
-def shortest_distances(
+def shortest_distances(  # noqa: PLR0917
     edges: Edges, lengths: Lengths, count: int, source: int
 ) -> Float[np.ndarray, " {count}"]:
     """Return the length of the shortest way from the source to every node; inf out of reach.

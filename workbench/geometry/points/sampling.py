@@ -152,13 +152,13 @@ def line_crossings(
         ahead = d @ middle.T - np.einsum("nx,nx->n", o, d)[:, None]
         squared_gap = squared_middle - 2 * (o @ middle.T) + (o**2).sum(axis=1)[:, None] - ahead**2
         line, face = np.nonzero(squared_gap <= squared_radius)
-        at, met = _met(start[first + line], along[first + line], a[face], b[face], c[face])
+        at, met = _met(start[first + line], along[first + line], a[face], b=b[face], c=c[face])
         lines.append(first + line[met])
         places.append(at[met])
     return np.concatenate([np.empty(0, int), *lines]), np.concatenate([np.empty((0, 3)), *places])
 
 
-def _met(start: np.ndarray, along: np.ndarray, a: np.ndarray, b: np.ndarray, c: np.ndarray):
+def _met(start: np.ndarray, along: np.ndarray, a: np.ndarray, *, b: np.ndarray, c: np.ndarray):
     """Return where segments meet triangles, and whether (Moeller and Trumbore 1997)."""
     ab, ac, to_start = b - a, c - a, start - a
     h, q = np.cross(along, ac), np.cross(to_start, ab)

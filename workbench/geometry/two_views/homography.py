@@ -56,7 +56,11 @@ def transform_pixels(
 
 
 def warped_grid(
-    H_b_a: Float[np.ndarray, "3 3"], size: Float[np.ndarray, "2"], cells: int = 4, pieces: int = 8
+    H_b_a: Float[np.ndarray, "3 3"],
+    size: Float[np.ndarray, "2"],
+    cells: int = 4,
+    *,
+    pieces: int = 8,
 ) -> Float[np.ndarray, "n 2 2"]:
     """Return a grid over image a of this (width, height), cut in pieces, as segments in image b."""
     t = np.linspace(0.0, 1.0, cells * pieces + 1)

@@ -88,6 +88,7 @@ def growth(H: Float[np.ndarray, "3 3"], size: tuple[int, int]) -> float:
 def fitted(
     H_first: Float[np.ndarray, "3 3"],
     H_second: Float[np.ndarray, "3 3"],
+    *,
     size_first: tuple[int, int],
     size_second: tuple[int, int],
     size: tuple[int, int],

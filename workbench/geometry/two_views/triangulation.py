@@ -18,7 +18,7 @@ def camera_matrix(
     return K @ T_camera_world[:3]
 
 
-def triangulate(
+def triangulate(  # noqa: PLR0917
     P_first: Float[np.ndarray, "3 4"],
     P_second: Float[np.ndarray, "3 4"],
     uv_first: Float[np.ndarray, "n 2"],
@@ -77,6 +77,7 @@ def triangulation_covariances(
     P_first: Float[np.ndarray, "3 4"],
     P_second: Float[np.ndarray, "3 4"],
     p: Float[np.ndarray, "n 3"],
+    *,
     sigma: float,
 ) -> Float[np.ndarray, "n 3 3"]:
     """Return points' covariances, to first order, for a standard deviation of pixel coordinates.
