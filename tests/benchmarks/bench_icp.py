@@ -156,10 +156,8 @@ def bench_icp(n: int, floor_whole: str) -> None:
     start = np.eye(4)
     o3_fixed = o3_icp and (lambda: o3_icp(FIRST, start, 0.0, most=ITERATIONS))
     gicp_fixed = gicp and (lambda: gicp(FIRST, start, 0.0, most=ITERATIONS))
-    o3_whole = o3_icp and (
-        lambda: o3_icp(SECOND, o3_icp(FIRST, start, 1e-6, most=50), 1e-6, most=50)
-    )
-    gicp_whole = gicp and (lambda: gicp(SECOND, gicp(FIRST, start, 1e-5, most=50), 1e-6, most=50))
+    o3_whole = o3_icp and (lambda: through_both_gates(o3_icp, start, 1e-6))
+    gicp_whole = gicp and (lambda: through_both_gates(gicp, start, 1e-5))
 
     names = ("open3d", "small_gicp")
     ours, *peers = (t / ITERATIONS for t in best(fixed_iterations, o3_fixed, gicp_fixed, repeat=3))
