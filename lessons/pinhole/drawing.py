@@ -205,7 +205,7 @@ def _back(look: PinholeLook) -> dict[str, Primitive]:
     """Return the ray of the followed pixel, and where pixels with depths come from."""
     state, k = look.now.now, look.subject.k
     parts: dict[str, Primitive] = {
-        "center": Points(state.p_center[None], "source", 0.16),
+        "center": Points(state.p_center[None], "source", 0.08),
         "center/name": Label("C", state.p_center + 0.3 * UP, "source"),
     }
     returned = np.linalg.norm(np.nan_to_num(state.p_back, nan=np.inf), axis=1) < 1e4
