@@ -31,12 +31,16 @@ from workbench.scene import (
 )
 
 SIGMAS, BEYOND = 2.0, 1.25  # standard deviations to the ellipsoid; of it: how far an axis reaches
-MOST_MISSES, GHOST = 40, 0.3  # lines to where points belong; the opacity of what is not chosen
+# lines to where points belong; the opacity of what is not chosen
+MOST_MISSES = 40
+GHOST = 0.3
 TIPS = 0.8  # metres from the centroid to the tips of many turns
 BALL = sphere(400)
 EDGES = np.array([(a, a ^ bit) for a in range(8) for bit in (1, 2, 4) if a < a ^ bit])
 CORNERS = np.array([[(k >> bit) & 1 for bit in range(3)] for k in range(8)])
-CELL, MATRIX = 0.27, np.array([0.58, 0.0, 0.42])  # metres: a cell of the matrix, its first corner
+# metres: a cell of the matrix, its first corner
+CELL = 0.27
+MATRIX = np.array([0.58, 0.0, 0.42])
 PLACES = np.array([[-0.58, 0, 0.52], [0.58, 0, 0.52], [-0.58, 0, -0.6], [0.58, 0, -0.6]])
 
 

@@ -17,7 +17,10 @@ from workbench.geometry.upright import outlined, upright
 from workbench.lesson import Look, Params, say
 from workbench.scene import Chart, Label, Points, Primitive, Scene, Segments, arc
 
-POINTS, SIGMAS, REACH = 60, 2.0, 0.78  # points, standard deviations in the bar, metres
+# points, standard deviations in the bar, metres
+POINTS = 60
+SIGMAS = 2.0
+REACH = 0.78
 HAND = np.arange(0.0, 181.0, 3.0)  # degrees: where the hand has been after half a turn
 HAND[[24, 54]] = 71.0, 161.0  # the longest shadow and the shortest are among them
 FINE = np.arange(0.0, 180.5, 1.0)

@@ -34,7 +34,10 @@ VIEWS = {
     "together": TOGETHER,
     "apart": APART,
 }
-FIRST, POSE, TURNS = 3, -2, -1  # steps of the default run, or from the end
+# steps of the default run, or from the end
+FIRST = 3
+POSE = -2
+TURNS = -1
 LEAST_LIKELY = 150.0  # degrees: what is farther off is about half a turn
 
 

@@ -14,7 +14,10 @@ from workbench.geometry.motions.principal_axes import centroid_and_covariance
 from workbench.lesson import Slot
 from workbench.tracing import untraced
 
-KEEP, MOST, TOLERANCE = 0.9, 150, 1e-5  # as in the lesson on ICP
+# as in the lesson on ICP
+KEEP = 0.9
+MOST = 150
+TOLERANCE = 1e-5
 ROUNDS = (
     0,
     1,
@@ -94,13 +97,17 @@ def race(scans: Scans, find: Slot | None) -> Iterator[Race]:
     for count in range(MOST + 1):
         for k in np.flatnonzero(running):
             match = next(runs[k])  # where it lies now
-            T[k], rmse[k], running[k] = match.T_target_source, match.rmse, match.stop is None
+            T[k] = match.T_target_source
+            rmse[k] = match.rmse
+            running[k] = match.stop is None
         if count in ROUNDS or not any(running):
             yield _now(scans, count, T, rmse=rmse)
         for k in np.flatnonzero(running):
             fit = next(runs[k])
             if fit.stop is not None:
-                T[k], rmse[k], running[k] = fit.T_target_source, fit.rmse, False
+                T[k] = fit.T_target_source
+                rmse[k] = fit.rmse
+                running[k] = False
         if not any(running):
             break
     *_, alone = _icp(scans, np.eye(4))

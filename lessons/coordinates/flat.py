@@ -22,7 +22,9 @@ LAST_ENTRY = Chart("w of the meeting", unit="for a vector of length 1")
 KEPT = Chart("Four points on a line", unit="ratio")
 SIZES = Chart("Wrong size", unit="%")
 ORIGIN = np.zeros(3)
-LOW, HIGH = np.array([-2.0, -1.5]), np.array([8.0, 2.5])  # of the plane w = 1 that is shown, metres
+# of the plane w = 1 that is shown, metres
+LOW = np.array([-2.0, -1.5])
+HIGH = np.array([8.0, 2.5])
 EYE_SHOWN, RAY = 4.0, 2.2  # metres
 
 

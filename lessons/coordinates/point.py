@@ -14,7 +14,9 @@ from workbench.errors import InputError
 from workbench.geometry.shapes.curvilinear import SYSTEMS
 
 STEPS = 3  # for each coordinate
-SIDE, TURN = 0.2, np.radians(20.0)  # of the cell: metres and radians
+# of the cell: metres and radians
+SIDE = 0.2
+TURN = np.radians(20.0)
 CLIMB, REACH = 0.8, 0.6  # metres: how high the walk is, and how far to both sides
 WS = (1.0, 2.0, 0.7, 0.5, 0.3, 0.1, 0.01, 0.0)
 OTHER = 3.0 * np.array([-0.7, 0.5, 0.2, 1.0])  # a second point, with w = 3

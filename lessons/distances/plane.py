@@ -24,16 +24,18 @@ METRICS: tuple[Metric, ...] = (
     "cosine",
     "mahalanobis",
 )
-HALF, DOTS, QUERIES = 1.0, 30, 500  # half a side of the square, metres; points; queries
+# half a side of the square, metres; points; queries
+HALF = 1.0
+DOTS = 30
+QUERIES = 500
 TRIPLES, ROUNDS = 500, 20
 SHARE = 0.95
 WITHIN = 2.0
 FRESH = 4000
 DIMENSIONS = 10
-SECOND, SPREAD = (
-    np.array([1.0, -1.0]) / np.sqrt(2),
-    0.1,
-)  # towards the second cluster, and its standard deviation
+# towards the second cluster, and its standard deviation
+SECOND = np.array([1.0, -1.0]) / np.sqrt(2)
+SPREAD = 0.1
 FOCAL, BASELINE, SIGMA = 700.0, 0.12, 0.5  # pixels, metres, pixels
 LANDMARKS, SIGHTS, VIEWS = 60, 30, 8
 

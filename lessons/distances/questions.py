@@ -47,12 +47,14 @@ def late(states: Sequence[State]) -> float:
 
 def to_goal(states: Sequence[State]) -> tuple[float, float]:
     """Return how long the way to the goal is, as found and in truth."""
-    distances, subject = found(states), sure(states[-1].subject)
+    distances = found(states)
+    subject = sure(states[-1].subject)
     return float(distances.d[subject.goal]), float(distances.truth[subject.goal])
 
 
 def _why_shortcut(states: Sequence[State]) -> str:
-    subject, (d, true) = sure(states[-1].subject), to_goal(states)
+    subject = sure(states[-1].subject)
+    d, true = to_goal(states)
     many = int(subject.shortcuts.sum())
     if not many:
         return f"{length(d)} for {length(true)}: with these points no edge leaves the sheet."

@@ -21,10 +21,9 @@ from workbench.tracing import traced
 
 BANDS = 10
 NEAR = 0.14  # of the largest true distance: nearer than this a relative error says little
-SIDES, VERTICES = (
-    (11, 21, 41, 81, 161),
-    (42, 162, 642, 2562),
-)  # of the studies: nodes along a side, on a sphere
+# of the studies: nodes along a side, on a sphere
+SIDES = (11, 21, 41, 81, 161)
+VERTICES = (42, 162, 642, 2562)
 EXTRA = 3
 TIMES = np.arange(-2.0, 3.1, 0.5)
 PAIRS = 24  # sources between which heat distances are held against each other

@@ -24,7 +24,9 @@ from workbench.knobs import only
 OWN_SIZE = 2.0
 MOST_CLOUD = 3000
 TOWARDS_EYE = np.array([0.3, -0.8, 0.55])  # where the source is, on a surface
-FROM, TO = (-0.3, 0.0), (0.3, -0.2)  # in the square, the origin being its middle
+# in the square, the origin being its middle
+FROM = (-0.3, 0.0)
+TO = (0.3, -0.2)
 SHORTCUT = 3.0  # so many times as far apart on the sheet as in space
 WRUNG = 3.0  # how far a wrung sphere is turned per metre of height, radians
 POINTS_ON_EDGES = 4  # what the reference of a surface without formula is made with; 2 on large ones

@@ -27,10 +27,9 @@ from workbench.knobs import called
 
 Response = Callable[[np.ndarray], np.ndarray]
 BORDER = 16  # no corner is nearer to the border, whatever the patch
-SEEN, SIDE = (
-    6.0,
-    25,
-)  # of the square that SIFT describes: half its side, in sizes of the keypoint; pixels shown
+# of the square that SIFT describes: half its side, in sizes of the keypoint; pixels shown
+SEEN = 6.0
+SIDE = 25
 
 
 def picture_steps(

@@ -56,10 +56,9 @@ def turned(image: Image, angle: float) -> Image:
     """
     if angle == 0:
         return image
-    R, middle = (
-        _turn(angle),
-        (np.array(image.shape) - 1) / 2,
-    )  # in (v, u), the turn's inverse is R itself
+    # in (v, u), the turn's inverse is R itself
+    R = _turn(angle)
+    middle = (np.array(image.shape) - 1) / 2
     return scipy.ndimage.affine_transform(image, R, middle - R @ middle, order=1, cval=128.0)
 
 

@@ -17,7 +17,9 @@ FINEST, COARSEST, MOST_DISTANCES = (
     61,
     4_000_000,
 )  # points of the grid to a side; distances computed for it
-LINES, FACTOR = 10, 2.0  # at most, and from one to the next
+# at most, and from one to the next
+LINES = 10
+FACTOR = 2.0
 DOT, HEIGHT = 0.026, 0.02  # metres; the way lies above the circles, the lines below
 
 

@@ -94,7 +94,8 @@ def repeat_fit(
     C = covariance(end.residuals, end.jacobian)
     if not np.isfinite(C).all():
         return
-    d, (n, k) = p_anew.shape[-1], end.jacobian.shape
+    d = p_anew.shape[-1]
+    n, k = end.jacobian.shape
     spread = Spread(
         unknown=end.unknown,
         covariance=C,

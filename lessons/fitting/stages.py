@@ -35,15 +35,16 @@ SHOWN_IN_PARTS, ITERATIONS = 2, 40
 RESTS = {"a millionth": 1e-6, "a trillionth": 1e-12}
 REPEATS = (30, 300)
 LARGEST = 50.0  # metres of radius up to which a covariance says anything
-GRID, WALL = 21, 4.0  # starts to a side, metres
+# starts to a side, metres
+GRID = 21
+WALL = 4.0
 SHOWN_ITERATIONS = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
 ARCS = (360.0, 270.0, 180.0, 120.0, 90.0, 60.0, 45.0, 30.0, 20.0)
 MOST_DRAWS = 2000
 FEWER_DRAWS = 1200  # where there are several arcs
-ROUNDS, CALM = (
-    100,
-    0.01,
-)  # of a reweighted fit: at most, and by which share of the corner distances still change
+# of a reweighted fit: at most, and by which share of the corner distances still change
+ROUNDS = 100
+CALM = 0.01
 FIRST_ROUNDS, EVERY = 6, 6  # that become steps: all up to that one, then some
 
 

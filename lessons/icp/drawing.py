@@ -27,7 +27,9 @@ from workbench.scene import (
     Segments,
 )
 
-MOST_LINES, STUB = 50, 0.25  # matches drawn, and how much of a refused one
+# matches drawn, and how much of a refused one
+MOST_LINES = 50
+STUB = 0.25
 TIP, DIAL = 0.62, 0.7  # metres of the picture from its middle: of the arrows, and of the dial
 ARROW = np.array(
     [

@@ -26,11 +26,10 @@ from workbench.lesson import Look, cached, say
 from workbench.numerals import brief
 from workbench.scene import Caption, Chart, Classes, Label, Points, Primitive, Scene, Segments
 
-BLUE, ORANGE, OFFSET = (
-    60,
-    50,
-    0.4,
-)  # points of either outline, and how far the orange ones lie between
+# points of either outline, and how far the orange ones lie between
+BLUE = 60
+ORANGE = 50
+OFFSET = 0.4
 HAND = np.arange(-180.0, 181.0, 3.0)  # degrees: where the hand has been after a full turn
 FINE = np.arange(-180.0, 180.5, 1.0)
 HOME = 5.0  # degrees within which an end counts as home

@@ -44,7 +44,8 @@ def _points(of: np.ndarray, count: int, rng: np.random.Generator) -> np.ndarray:
     """Return points on the shapes, all shapes made for all points and one taken: loops over clouds
     would take longer.
     """
-    of, shape = np.repeat(of, count), (len(of), count, 3)
+    shape = (len(of), count, 3)
+    of = np.repeat(of, count)
     u, v, w = rng.random((3, len(of)))
     a = 2 * np.pi * u
     end = rng.random(len(of)) < 0.3

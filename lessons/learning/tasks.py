@@ -39,19 +39,17 @@ NETWORKS = {
 }  # numbers in a hidden layer, first step of Adam
 TURNS, SET, CLOUD, TESTS, PIXELS = 181, 48, 32, 20, 64
 RADII = (0.5, 1.5)  # of the circles that a set of points is shown, m
-VERTICES, GIVEN, TRUE, START = (
-    642,
-    1200,
-    3000,
-    0.6,
-)  # of meshes: vertices, points given and of the truth, radius (m)
+# of meshes: vertices, points given and of the truth, radius (m)
+VERTICES = 642
+GIVEN = 1200
+TRUE = 3000
+START = 0.6
 MOST_OWN = 200_000
 OWN_SIZE = 1.2
-NEW_VIEW, NEW_VIEWS, DENSE = (
-    0.13,
-    12,
-    5.0,
-)  # radians off the cameras; how many; density that counts as matter, 1/m
+# radians off the cameras; how many; density that counts as matter, 1/m
+NEW_VIEW = 0.13
+NEW_VIEWS = 12
+DENSE = 5.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -72,7 +72,8 @@ def numbers_of(
             u[:, 1] **= 2
         elif params.place == "normalised":
             a, b, c = rng.random((3, count))
-            u[:, 1], u[:, 2] = ((b + c) / (a + b + c)) ** 2, c / (b + c)
+            u[:, 1] = ((b + c) / (a + b + c)) ** 2
+            u[:, 2] = c / (b + c)
         return u
 
     return numbers

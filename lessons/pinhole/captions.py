@@ -50,7 +50,9 @@ def caption(look: PinholeLook) -> Caption:
     if not more:
         more, others = _remark(look)
     if stage == "pixels" and more and not alarm and params.mistake == "none":
-        words, values = "", {}  # what this camera is about, and not one of its points
+        # what this camera is about, and not one of its points
+        words = ""
+        values = {}
     tone = "wrong" if alarm else "info"
     place = PLACES.get(stage, stage)
     return say((words + more).strip(), tone=tone, place=place, **values, **others)

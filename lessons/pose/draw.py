@@ -59,10 +59,9 @@ LOOKS: dict[Target, Look] = {
     "street": Look(ALONG, ALONG.facing(5.8, -1.5), 8.2, 0.08, 1.2),
     "triangle": Look(ABOVE, ABOVE.facing(2.6, 0.3), 2.8, 0.02, 0.45),
 }
-ENLARGED, SMALL = (
-    10,
-    4.0,
-)  # residuals are drawn so many times as long while their RMS is below so many pixels
+# residuals are drawn so many times as long while their RMS is below so many pixels
+ENLARGED = 10
+SMALL = 4.0
 QUARTIC = Chart("Quartic", "v = s₃ / s₁", "scaled")
 PICTURE_ERROR, TURN_ERROR = (
     Chart("RMS error in the picture", unit="px"),
@@ -244,11 +243,9 @@ def _candidates(state: State, search: Searched) -> dict[str, Primitive]:
             scene[f"candidates/{k}/rays"] = Segments(
                 ends, "highlight" if last else "correspondence", 2.0 if last else 1.0
             )
-        (degrees, _), miss, where = (
-            subject.off(T),
-            state.judged(T),
-            subject.frame.shown(camera_center(T)),
-        )
+        degrees, _ = subject.off(T)
+        miss = state.judged(T)
+        where = subject.frame.shown(camera_center(T))
         off = "" if np.isnan(degrees) else angle(degrees)
         rows.append(
             (f"{k}", coordinates(where, 2), pixels(miss) if np.isfinite(miss) else "behind", off)

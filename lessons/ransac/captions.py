@@ -113,7 +113,8 @@ def _refit(look: SearchLook) -> Caption:
     values: dict = {"votes": best.count}
     words = "Refit to the voters: {votes} votes"
     if before is not None:
-        words, values["before"] = "Refit to the {before} voters: {votes} vote now", before.count
+        words = "Refit to the {before} voters: {votes} vote now"
+        values["before"] = before.count
     error = subject.error(best.estimate)
     if not np.isfinite(error):
         return say(words + ".", place="refit", **values)

@@ -20,7 +20,9 @@ from workbench.knobs import called
 from workbench.lesson import cached
 
 PIXEL = 1.0 / 500.0  # metres of the picture per pixel of the built-in images
-FLOOR, GAP = -0.35, 0.12  # the height of the picture's ground; between two images
+# the height of the picture's ground; between two images
+FLOOR = -0.35
+GAP = 0.12
 WIDTH = 2.2  # metres of the picture that own clouds are shown wide
 
 

@@ -40,9 +40,14 @@ from workbench.knobs import only
 BezierPatch = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """bezier_patch(control, uv) -> points of a bicubic patch."""
 
-LOW, EDGE = np.full(3, -1.0), 2.0  # the cube that is cut into cells
+# the cube that is cut into cells
+LOW = np.full(3, -1.0)
+EDGE = 2.0
 NEURAL_CELLS = 28
-NEAR, FAR, NEAR_SPREAD = 10_000, 5_000, 0.05  # samples for a network: near the surface, anywhere; m
+# samples for a network: near the surface, anywhere; m
+NEAR = 10_000
+FAR = 5_000
+NEAR_SPREAD = 0.05
 MOST_VISITS, QUERIES, FEW_QUERIES = 16, 32, 5
 MESH_FROM, CLOUD_FROM = 125, 100
 

@@ -216,7 +216,8 @@ def the_examples_are_true(subject: Subject, exercise: Exercise) -> Found:
             continue
         for function in (exercise.reference, *exercise.alternatives):
             try:
-                value, told = eval(call, known | {exercise.name: function}), eval(result, known)
+                value = eval(call, known | {exercise.name: function})
+                told = eval(result, known)
                 parts = (
                     zip(value, told, strict=True) if isinstance(told, tuple) else [(value, told)]
                 )

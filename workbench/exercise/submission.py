@@ -98,7 +98,8 @@ def submission(
         content_beside = None if name in modules else extra_file(f"{name}.py")
         if content_beside is not None:
             module = reader.read(f"{name}.py", content_beside)
-            modules[name], parts[name] = module["source"], _parts(module)
+            modules[name] = module["source"]
+            parts[name] = _parts(module)
             waiting += module.get("imports", [])
     return Submission(
         file=file,

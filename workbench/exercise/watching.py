@@ -61,10 +61,8 @@ class WatchedFile:
         stamp = self._stamp_now()
         self._missing = self._missing + 1 if stamp is None else 0
         if stamp is None and self._missing == GONE_AFTER:
-            self._stamp, self.said = (
-                None,
-                f"{self.path.name} is gone: what is shown ran before. Save it there again.",
-            )
+            self.said = f"{self.path.name} is gone: what is shown ran before. Save it there again."
+            self._stamp = None
         if stamp is None or stamp == self._stamp:
             return False
         self._stamp, self.said = stamp, RUNNING

@@ -53,7 +53,8 @@ def sphere_rings(
     centre: Float[np.ndarray, "3"], radius: float, pieces: int = 64
 ) -> Float[np.ndarray, "n 2 3"]:
     """Return three great circles of a sphere and two circles of latitude, as segments."""
-    (c, s), zero = circle(pieces).T, np.zeros(pieces + 1)
+    c, s = circle(pieces).T
+    zero = np.zeros(pieces + 1)
     rings = [
         np.column_stack([c, s, zero]),
         np.column_stack([c, zero, s]),

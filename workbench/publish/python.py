@@ -128,7 +128,8 @@ def _wanted(folder: Path, packages: Mapping[str, Any]) -> Iterator[str]:
         done.add(name)
         try:
             package = packages[name]
-            file, depends = package["file_name"], list(package["depends"])
+            file = package["file_name"]
+            depends = list(package["depends"])
             version = [int(part) for part in package["version"].split(".")[:2]]
             fine = bool(_PLAIN.fullmatch(file)) and all(isinstance(need, str) for need in depends)
         except (KeyError, TypeError, ValueError, AttributeError):

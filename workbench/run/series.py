@@ -32,7 +32,8 @@ class ScalarColumns:
 
     def add(self, scene: Scene) -> None:
         """Take the scalars of one more step."""
-        k, self._steps = self._steps, self._steps + 1
+        k = self._steps
+        self._steps = self._steps + 1
         for path, primitive in scene.items():
             if isinstance(primitive, Scalar) and path not in self._first:
                 self._values[path] = np.full(max(64, 2 * k), np.nan)

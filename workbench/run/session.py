@@ -248,7 +248,8 @@ class Session:
         """
         timeline = self.timeline
         if len(timeline):
-            self._shown, k = timeline, self.step
+            k = self.step
+            self._shown = timeline
         elif self._shown is not None and self._shown.lesson is self.lesson and len(self._shown):
             timeline = self._shown
             k = min(self._last_k, len(self._shown) - 1)

@@ -272,7 +272,8 @@ class Timeline:
         )
 
     def _end(self, why: str | None = None) -> bool:
-        self.finished, self.stopped = True, why
+        self.finished = True
+        self.stopped = why
         return False
 
     def _freeze(self, value: Any) -> None:

@@ -163,7 +163,8 @@ class Maker:
             if name is None:
                 others.append(message)
             elif "props" in message:
-                made[name], poses[name] = (message, arrays), AT_ORIGIN
+                made[name] = (message, arrays)
+                poses[name] = AT_ORIGIN
             elif message["type"] == "SceneNodeUpdateMessage":
                 made[name][0]["props"].update(message["updates"])
             elif message["type"] == "SetPositionMessage":

@@ -177,7 +177,8 @@ def residuals_of(
 def _is_likely(K: np.ndarray | None, size: tuple[int, int]) -> bool:
     if K is None:
         return False
-    (w, h), (u, v) = size, K[:2, 2]
+    w, h = size
+    u, v = K[:2, 2]
     return bool(0 < u < w and 0 < v < h and min(K[0, 0], K[1, 1]) > w / 3)
 
 

@@ -77,7 +77,8 @@ def fit_mesh(
         weights: Of the energies.
         counts: After how many updates a state is yielded.
     """
-    p, count = p.copy(), len(p)
+    count = len(p)
+    p = p.copy()
     L = umbrella(faces, count)
     edges = edges_of(faces)
     pairs = face_pairs(faces)

@@ -85,10 +85,8 @@ class PointNet:
     def slopes(self, done: "Pass", slope: Float[np.ndarray, "b c"]) -> Float[np.ndarray, " w"]:
         """Return the gradient by all values, given that by the scores of a pass."""
         gradient = np.zeros_like(self.values)
-        (of_points, of_head), (into_points, into_head) = (
-            self._layers(self.values),
-            self._layers(gradient),
-        )
+        of_points, of_head = self._layers(self.values)
+        into_points, into_head = self._layers(gradient)
         by_pooled = (
             backward(of_head, done.head, slope, activation="relu", into=into_head) @ of_head[0][0].T
         )

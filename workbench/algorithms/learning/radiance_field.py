@@ -130,7 +130,8 @@ def _between(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     inside = np.all((at >= 0) & (at <= CELLS - 1), axis=-1)
     at = np.clip(at, 0, CELLS - 1 - 1e-6)
     low = at.astype(int)
-    (fx, fy), node = np.moveaxis(at - low, -1, 0), low[..., 0] * CELLS + low[..., 1]
+    fx, fy = np.moveaxis(at - low, -1, 0)
+    node = low[..., 0] * CELLS + low[..., 1]
     shares = np.stack([(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy], axis=-1)
     return np.stack(
         [node, node + CELLS, node + 1, node + CELLS + 1], axis=-1

@@ -23,7 +23,9 @@ from workbench.tracing import traced
 
 SHARED = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
 """What all views share, in the order of covariances."""
-_POSE, _RESIDUAL = slice(9, 15), 15  # rows of a view's block
+# rows of a view's block
+_POSE = slice(9, 15)
+_RESIDUAL = 15
 
 
 def shared_numbers(K: Float[np.ndarray, "3 3"], lens: Distortion) -> Float[np.ndarray, "9"]:
@@ -190,12 +192,17 @@ def linearised(
     factor = 1.0 + s * (k1 + s * (k2 + s * k3)) + 2.0 * (p2 * x + p1 * y)
     bent_x, bent_y = factor * x + p2 * s, factor * y + p1 * s
 
-    of_u[:, 0], of_v[:, 1], of_u[:, 2], of_v[:, 3] = bent_x, bent_y, 1.0, 1.0
+    of_u[:, 0] = bent_x
+    of_v[:, 1] = bent_y
+    of_u[:, 2] = 1.0
+    of_v[:, 3] = 1.0
     fx_x, fy_y = fx * x, fy * y
     for row, power in ((4, s), (5, s * s), (8, s**3)):
         of_u[:, row], of_v[:, row] = fx_x * power, fy_y * power
-    of_u[:, 6], of_v[:, 6] = 2.0 * fx * xy, fy * (s + 2.0 * yy)
-    of_u[:, 7], of_v[:, 7] = fx * (s + 2.0 * xx), 2.0 * fy * xy
+    of_u[:, 6] = 2.0 * fx * xy
+    of_v[:, 6] = fy * (s + 2.0 * yy)
+    of_u[:, 7] = fx * (s + 2.0 * xx)
+    of_v[:, 7] = 2.0 * fy * xy
 
     slope_xx = factor + x * (growth * x + 4.0 * p2)  # the lens's own Jacobian, which is symmetric
     slope_xy = growth * xy + 2.0 * (p1 * x + p2 * y)
@@ -250,7 +257,8 @@ def solved(
         eliminated = np.linalg.solve(
             P, np.concatenate([np.moveaxis(B, 1, 2), h[:, :, None]], axis=2)
         )
-        per_shared, alone = eliminated[:, :, :-1], eliminated[:, :, -1]
+        per_shared = eliminated[:, :, :-1]
+        alone = eliminated[:, :, -1]
         step[free] = np.linalg.solve(
             A - (B @ per_shared).sum(axis=0), np.einsum("ksp,kp->s", B, alone) - g
         )
@@ -309,5 +317,7 @@ def _covariance(block: np.ndarray, weights: np.ndarray, free: np.ndarray) -> np.
 
 def _motions(R: np.ndarray, t: np.ndarray) -> np.ndarray:
     T = np.zeros((len(R), 4, 4))
-    T[:, :3, :3], T[:, :3, 3], T[:, 3, 3] = R, t, 1.0
+    T[:, :3, :3] = R
+    T[:, :3, 3] = t
+    T[:, 3, 3] = 1.0
     return T

@@ -224,7 +224,9 @@ def icp(
             )
             return
         largest_move = lengths(apply(T_new, corners) - apply(T_target_source, corners)).max()
-        T_target_source, p_moved = T_new, apply(T_new, p_source)  # step c: apply the registration
+        # step c: apply the registration
+        T_target_source = T_new
+        p_moved = apply(T_new, p_source)
         distances = lengths(p_match - p_moved)
         matches = zlib.crc32(kept.tobytes(), zlib.crc32(indices.tobytes()))
         if largest_move <= shortest_move:  # step d: terminate

@@ -161,10 +161,8 @@ def _solve_rigid(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         mean_p, mean_q = p.mean(axis=1, keepdims=True), q.mean(axis=1, keepdims=True)
         # as align_rigid, for many triangles
         R = nearest_rotation(np.swapaxes(q - mean_q, 1, 2) @ (p - mean_p))
-        T_target_source[:, :3, :3], T_target_source[:, :3, 3] = (
-            R,
-            (mean_q - mean_p @ np.swapaxes(R, 1, 2))[:, 0],
-        )
+        T_target_source[:, :3, :3] = R
+        T_target_source[:, :3, 3] = (mean_q - mean_p @ np.swapaxes(R, 1, 2))[:, 0]
     return T_target_source, of_sample
 
 

@@ -164,9 +164,11 @@ def _edged(image: np.ndarray, margin: int) -> np.ndarray:
     h, w = image.shape
     padded = np.empty((h + 2 * margin, w + 2 * margin), image.dtype)
     rows = padded[margin : margin + h]
-    rows[:, :margin], rows[:, margin + w :] = image[:, :1], image[:, -1:]
+    rows[:, :margin] = image[:, :1]
+    rows[:, margin + w :] = image[:, -1:]
     rows[:, margin : margin + w] = image
-    padded[:margin], padded[margin + h :] = rows[0], rows[-1]
+    padded[:margin] = rows[0]
+    padded[margin + h :] = rows[-1]
     return padded
 
 

@@ -119,7 +119,9 @@ def shoot_lines(
 
     A = 2 pi R^2 times the mean number of crossings (Crofton).
     """
-    (centre, radius), met, estimates = ball, np.empty(0, int), Estimates()
+    centre, radius = ball
+    met = np.empty(0, int)
+    estimates = Estimates()
     for count in counts:
         ends = lines_through_ball(count - len(met), centre, radius, rng=rng)
         line, places = line_crossings(p, faces, ends)

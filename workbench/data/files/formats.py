@@ -106,7 +106,8 @@ def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     lines = content[: header_end.start()].decode("ascii", "replace").splitlines()
     header = {words[0]: words[1:] for words in map(str.split, lines) if words}
     try:
-        fields, n = header["FIELDS"], int(header["POINTS"][0])
+        fields = header["FIELDS"]
+        n = int(header["POINTS"][0])
         sizes, kinds = header["SIZE"], header["TYPE"]
         counts = [int(c) for c in header.get("COUNT", ["1"] * len(fields))]
         types = [

@@ -82,10 +82,8 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
     try:
         loaded: Any = trimesh.load(io.BytesIO(content), file_type=kind[1:], process=False)
         mesh = _one_mesh(loaded, path.name) if isinstance(loaded, trimesh.Scene) else loaded
-        p, faces = (
-            np.array(mesh.vertices, float),
-            np.array(getattr(mesh, "faces", np.empty((0, 3))), np.intp),
-        )
+        p = np.array(mesh.vertices, float)
+        faces = np.array(getattr(mesh, "faces", np.empty((0, 3))), np.intp)
     except InputError:
         raise
     except Exception as error:  # the readers of trimesh raise whatever they trip over
@@ -294,7 +292,8 @@ def text_rows(
     if kinds is not None and path.suffix.lower() not in kinds:
         raise InputError(f"{path.name}: {what} are read from text files ({', '.join(kinds)})")
     text = text_of(content_of(path)[0], path.name)
-    most, count = allowance().lines, text.count("\n")
+    most = allowance().lines
+    count = text.count("\n")
     if count > most:
         raise InputError(
             f"{path.name}: {count:,} lines; {what} are read from at most {most:,}{allowance().more}"

@@ -147,7 +147,8 @@ def _to_box(box: np.ndarray, p_world: np.ndarray, v_world: np.ndarray) -> np.nda
 
 
 def _to_pole(pole: np.ndarray, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
-    off, (x, y, z) = p_world[:2] - pole[:2], v_world
+    off = p_world[:2] - pole[:2]
+    x, y, z = v_world
     a = x * x + y * y
     b = off[0] * x + off[1] * y
     c = off @ off - pole[2] ** 2

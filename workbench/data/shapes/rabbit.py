@@ -33,7 +33,9 @@ _AXES = (_TURNS.swapaxes(1, 2) / _RADII[:, :, None]).reshape(-1, 3)  # of each, 
 _MIDDLES = np.sum(_AXES * np.repeat(_CENTRES, 3, axis=0), axis=1)[:, None]  # along those axes
 _LEAST = _RADII.min(axis=1)[:, None]
 _BLEND = 60.0  # 1/m: how sharply the blobs meet
-_LOW, _HIGH = np.array([-0.55, -0.40, -0.43]), np.array([0.55, 0.40, 0.82])  # a box around them
+# a box around them
+_LOW = np.array([-0.55, -0.40, -0.43])
+_HIGH = np.array([0.55, 0.40, 0.82])
 _ROUNDS = 5  # of moving vertices towards the middle of their neighbours
 
 

@@ -78,7 +78,8 @@ def torus(
         jitter=jitter,
         rng=rng,
     )
-    (u, v), zero = uv.T, np.zeros(len(uv))
+    u, v = uv.T
+    zero = np.zeros(len(uv))
     outward = np.c_[np.cos(u), np.sin(u), zero]
     normals = np.cos(v)[:, None] * outward + np.sin(v)[:, None] * np.array([0, 0, 1.0])
     along_tube = -np.sin(v)[:, None] * outward + np.cos(v)[:, None] * np.array([0, 0, 1.0])
@@ -108,7 +109,8 @@ def cylinder(
     uv, faces = _grid(
         around, up, (0, 2 * np.pi), v_span=span, closed=(True, False), jitter=jitter, rng=rng
     )
-    (u, z), zero = uv.T, np.zeros(len(uv))
+    u, z = uv.T
+    zero = np.zeros(len(uv))
     normals = np.c_[np.cos(u), np.sin(u), zero]
     p = radius * normals + np.c_[zero, zero, z]
     return Surface(p, faces, normals, zero + 1 / radius, zero, np.c_[-np.sin(u), np.cos(u), zero])
@@ -137,7 +139,8 @@ def catenoid(
         jitter=jitter,
         rng=rng,
     )
-    (u, t), zero = uv.T, np.zeros(len(uv))
+    u, t = uv.T
+    zero = np.zeros(len(uv))
     p = waist * np.c_[np.cosh(t) * np.cos(u), np.cosh(t) * np.sin(u), t]
     normals = np.c_[np.cos(u), np.sin(u), -np.sinh(t)] / np.cosh(t)[:, None]
     k = 1 / (waist * np.cosh(t) ** 2)

@@ -21,7 +21,10 @@ SIDES = (
     1200,
     400,
 )
-BLUR, RING, APART = 1.5, 4.5, 7  # pixels: of the saddles, of the ring around one, between two
+# pixels: of the saddles, of the ring around one, between two
+BLUR = 1.5
+RING = 4.5
+APART = 7
 MOST, SEEDS = 500, 120  # saddles that are looked at, and those from which a board is grown
 FOURFOLD = 0.55  # share of a ring's changes that two dark and two bright sectors make
 # share of them by which its opposite sides may differ: they do where a square meets the board's rim
@@ -31,7 +34,8 @@ NEAR = 0.3  # of a square's edge: how far a corner may be from where its neighbo
 # of the shortest edge: half the window in which a corner is refined; wider ones see other corners'
 # edges
 REACH = 0.3
-ITERATIONS, STILL = 40, 1e-3  # pixels
+ITERATIONS = 40
+STILL = 1e-3  # pixels
 
 Table = Int[np.ndarray, "rows columns"]
 

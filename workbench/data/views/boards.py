@@ -9,7 +9,10 @@ from workbench.geometry.cameras import intrinsics, project
 from workbench.geometry.cameras.distortion import Distortion
 from workbench.geometry.motions import exp_so3, motion
 
-COLUMNS, ROWS, SQUARE = 9, 6, 0.025  # inner corners, and the edge of a square in metres
+# inner corners, and the edge of a square in metres
+COLUMNS = 9
+ROWS = 6
+SQUARE = 0.025
 SIZE = (640, 480)
 K_TRUE = intrinsics(536.0, 342.0, 236.0)
 LENS_TRUE = Distortion(k1=-0.27, k2=0.05, p1=0.0015, p2=-0.0005)

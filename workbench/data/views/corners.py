@@ -138,7 +138,9 @@ def pictures_below(corners: Corners, path: Path, only: int) -> Pictures:
     count = corners.count
     names = tuple(path.name if view == min(only, count - 1) else None for view in range(count))
     pictures = pictures_of(path, matched(path, corners.names, count) if holds_many(path) else names)
-    (w, h), (u, v), stated = pictures.size, corners.uv.reshape(-1, 2).max(axis=0), corners.stated
+    w, h = pictures.size
+    u, v = corners.uv.reshape(-1, 2).max(axis=0)
+    stated = corners.stated
     if stated is None and not (u < w and v < h):
         raise InputError(
             f"{path.name or path}: pictures of {w} x {h} pixels, and corners as far as ({u:.0f},"

@@ -58,8 +58,12 @@ def linearised(
     J = np.zeros((*x.shape, 2, 6))
     J[..., 0, 0] = J[..., 1, 1] = near
     J[..., 0, 2], J[..., 1, 2] = -x * near, -y * near
-    J[..., 0, 3], J[..., 0, 4], J[..., 0, 5] = -x * y, 1.0 + x * x, -y
-    J[..., 1, 3], J[..., 1, 4], J[..., 1, 5] = -1.0 - y * y, x * y, x
+    J[..., 0, 3] = -x * y
+    J[..., 0, 4] = 1.0 + x * x
+    J[..., 0, 5] = -y
+    J[..., 1, 3] = -1.0 - y * y
+    J[..., 1, 4] = x * y
+    J[..., 1, 5] = x
     residuals = np.stack([x, y], axis=-1) - xy
     return residuals.reshape(*x.shape[:-1], -1), J.reshape(*x.shape[:-1], -1, 6)
 
@@ -196,7 +200,9 @@ def sqpnp(
         ]
         R, t = R[rows, order], t[rows, order]
     T = np.zeros((len(p), 4, 4))
-    T[:, :3, :3], T[:, :3, 3], T[:, 3, 3] = R[:, 0], t[:, 0], 1.0
+    T[:, :3, :3] = R[:, 0]
+    T[:, :3, 3] = t[:, 0]
+    T[:, 3, 3] = 1.0
     return _about(T, -p_mean).reshape(*batch, 4, 4)
 
 
@@ -239,7 +245,8 @@ def _quadratic_form(q: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 def _programs(omega: np.ndarray, R: np.ndarray, most: int) -> np.ndarray:
     """Minimise the forms repeatedly in the three directions in which each rotation can move."""
-    R, of_problem = R.copy().reshape(-1, 3, 3), np.repeat(np.arange(len(R)), R.shape[1])
+    of_problem = np.repeat(np.arange(len(R)), R.shape[1])
+    R = R.copy().reshape(-1, 3, 3)
     going = np.arange(len(R))
     for _ in range(most):
         E = (_SKEW @ R[going, None]).reshape(-1, 3, 9)

@@ -75,7 +75,8 @@ def _motions(q: np.ndarray, xy: np.ndarray, arms: np.ndarray) -> np.ndarray:
     p_camera *= np.where(p_camera[..., 2].sum(axis=-1) < 0.0, -1.0, 1.0)[..., None, None]
     Ts = np.zeros((*p_camera.shape[:2], 4, 4))
     Ts[..., :3, :3] = nearest_rotation(np.swapaxes(p_camera, -1, -2) @ q)
-    Ts[..., :3, 3], Ts[..., 3, 3] = p_camera.mean(axis=-2), 1.0
+    Ts[..., :3, 3] = p_camera.mean(axis=-2)
+    Ts[..., 3, 3] = 1.0
     return Ts[np.argmin(rms_reprojection(Ts, q, xy), axis=0), np.arange(len(q))]
 
 

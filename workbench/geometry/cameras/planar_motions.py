@@ -98,7 +98,9 @@ def _turns_to(xy: np.ndarray) -> np.ndarray:
     n = xy * z[..., None]
     R = np.zeros((*z.shape, 3, 3))
     R[..., :2, :2] = np.eye(2) - n[..., :, None] * n[..., None, :] / (1.0 + z[..., None, None])
-    R[..., :2, 2], R[..., 2, :2], R[..., 2, 2] = n, -n, z
+    R[..., :2, 2] = n
+    R[..., 2, :2] = -n
+    R[..., 2, 2] = z
     return R
 
 

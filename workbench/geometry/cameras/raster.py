@@ -209,7 +209,8 @@ def _draw_segments(item: SegmentItem, eye: _Eye) -> _Fragments:
     start, stop = clip_to_rectangle(uv, np.full(2, -0.5 - item.width), size - 0.5 + item.width)
     shown = start < stop
     uv, w, owner = uv[shown], w[shown], owner[shown]
-    start, length = start[shown], (stop - start)[shown]
+    length = (stop - start)[shown]
+    start = start[shown]
     steps = (
         np.ceil(length * np.abs(uv[:, 1] - uv[:, 0]).max(axis=1, initial=0.0)).astype(np.intp) + 1
     )
@@ -287,7 +288,9 @@ def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = (edge[:, k, 0] / rise)[triangle]
             crossing = uv[triangle, k, 0] + (v - uv[triangle, k, 1]) * slope
-        opens, closes = rise * area < 0, rise * area > 0  # the inside is to the right of this edge
+        # the inside is to the right of this edge
+        opens = rise * area < 0
+        closes = rise * area > 0
         np.maximum(left, crossing - slack, out=left, where=opens[triangle])
         np.minimum(right, crossing + slack, out=right, where=closes[triangle])
     left, right = np.ceil(left).astype(np.intp), np.floor(right).astype(np.intp)

@@ -101,7 +101,8 @@ def motions_from_lengths(
     T = np.zeros((len(s), 4, 4))
     with np.errstate(all="ignore"):
         R = _frames(p_camera) @ np.swapaxes(_frames(p_world), -1, -2)
-    T[:, :3, :3], T[:, 3, 3] = R, 1.0
+    T[:, :3, :3] = R
+    T[:, 3, 3] = 1.0
     T[:, :3, 3] = p_camera.mean(axis=1) - (R @ p_world.mean(axis=1)[..., None])[..., 0]
     return T
 

@@ -47,7 +47,8 @@ def nearest_both_ways(
     index, next_to_it = np.empty(n, np.intp), np.empty(n, np.intp)
     back, least = np.zeros(m, np.intp), np.full(m, np.inf)
     centre = b.mean(axis=0)  # a common offset costs digits below
-    given, (a, b) = (a, b), (a - centre, b - centre)
+    given = (a, b)
+    a, b = (a - centre, b - centre)
     squares = np.einsum("ij,ij->i", b, b)
     for start in range(0, n, max(1, _CELLS // m)):
         rows = slice(start, min(n, start + max(1, _CELLS // m)))

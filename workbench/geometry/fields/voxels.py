@@ -65,7 +65,8 @@ def grid_over(
 
 def windings_on(p: Points, faces: Faces, grid: Grid) -> Int[np.ndarray, "x y z"]:
     """Return the winding number of a closed mesh at the middle of every cell, column by column."""
-    corners, (nx, ny, nz) = p[faces], grid.shape
+    corners = p[faces]
+    nx, ny, nz = grid.shape
     flat = (corners[:, :, :2] - grid.low[:2]) / grid.spacing[
         :2
     ] - 0.5  # so that middles stand at whole numbers

@@ -107,7 +107,8 @@ def principal_directions(p: Points, faces: Faces, normals: Points) -> tuple[Poin
     """
     a, b = edges(faces).T
     i, j = np.concatenate([a, b]), np.concatenate([b, a])
-    step, (right, up) = p[i] - p[j], tangents(normals)
+    step = p[i] - p[j]
+    right, up = tangents(normals)
     x, y = np.einsum("ex,ex->e", step, right[i]), np.einsum("ex,ex->e", step, up[i])
     flat = np.maximum(x**2 + y**2, np.finfo(float).tiny)
     kappa = 2 * np.einsum("ex,ex->e", step, normals[i]) / np.einsum("ex,ex->e", step, step)

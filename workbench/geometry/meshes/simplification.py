@@ -32,7 +32,8 @@ def halved(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Int[np.nd
     half = half_edges(faces)
     _, first, name = np.unique(edge_keys(half), return_index=True, return_inverse=True)
     middle = len(p) + name.reshape(3, -1)  # of the edges opposite corners a, b, c
-    (a, b, c), (bc, ca, ab) = faces.T, middle
+    a, b, c = faces.T
+    bc, ca, ab = middle
     four = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
     cut = np.concatenate([np.stack(corners, axis=1) for corners in four])
     return np.concatenate([p, p[half[first]].mean(axis=1)]), cut

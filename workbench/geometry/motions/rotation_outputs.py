@@ -139,7 +139,8 @@ def _euler_decode(y: np.ndarray) -> np.ndarray:
 
 def _euler_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
     R_x, R_y, R_z = (_about(axis, y[:, axis]) for axis in range(3))
-    first, (about_x, about_y, about_z) = R_z @ R_y, skew(np.eye(3))
+    first = R_z @ R_y
+    about_x, about_y, about_z = skew(np.eye(3))
     R = first @ R_x
     changes = (R @ about_x, first @ about_y @ R_x, about_z @ R)
     return np.stack([(slope * change).sum(axis=(1, 2)) for change in changes], axis=1)
@@ -170,7 +171,8 @@ def _half_decode(y: np.ndarray) -> np.ndarray:
 
 def _half_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
     u, length = _unit(y)
-    (c, s), (by_c, by_s) = u.T, _plane_slopes(slope)
+    c, s = u.T
+    by_c, by_s = _plane_slopes(slope)
     return _through_unit(
         2 * np.stack([c * by_c + s * by_s, c * by_s - s * by_c], axis=1), u, length
     )

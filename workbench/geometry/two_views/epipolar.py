@@ -293,7 +293,8 @@ def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarra
         A = -np.copysign(np.cbrt(np.abs(R) + np.sqrt(np.maximum(beyond, 0.0))), R)
         alone = A + np.where(A == 0.0, 0.0, Q / A)
         single = ~(beyond < 0.0)
-        roots[0, single], roots[1:, single] = alone[single], np.nan
+        roots[0, single] = alone[single]
+        roots[1:, single] = np.nan
         roots -= middle
         # The closed form cancels where a is small: two Newton steps put that right
         for _ in range(2):

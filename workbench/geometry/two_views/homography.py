@@ -160,7 +160,8 @@ def _fitted(uv_a: np.ndarray, uv_b: np.ndarray, root: np.ndarray) -> np.ndarray:
     """Return homographies, at any scale, from matches with the roots of their weights."""
     T_a, T_b = normalising_similarity(np.stack([uv_a, uv_b]))
     x, y = (homogeneous(uv) @ np.swapaxes(T, -1, -2) for uv, T in ((uv_a, T_a), (uv_b, T_b)))
-    x, zero = x * root[:, None], np.zeros_like(x)
+    zero = np.zeros_like(x)
+    x = x * root[:, None]
     rows_v = np.concatenate([zero, -x, y[..., 1:2] * x], axis=-1)
     rows_u = np.concatenate([x, zero, -y[..., 0:1] * x], axis=-1)
     H = null_vector(np.concatenate([rows_v, rows_u], axis=-2)).reshape(*x.shape[:-2], 3, 3)
