@@ -20,11 +20,11 @@ def says(text: str, value: float, digits: int | None = None) -> bool:
     """Whether a numeral says a value, as exactly as it is written: to its last decimal, or to so
     many digits.
     """
-    said = _decimal(text)
-    place = 10.0 ** int(said.as_tuple().exponent)
-    if digits is not None and said:
-        place = max(place, 10.0 ** (said.adjusted() + 1 - digits))
-    return abs(float(said) - value) <= 0.51 * place + 1e-9 * max(abs(value), 1.0)
+    numeral = _decimal(text)
+    place = 10.0 ** int(numeral.as_tuple().exponent)
+    if digits is not None and numeral:
+        place = max(place, 10.0 ** (numeral.adjusted() + 1 - digits))
+    return abs(float(numeral) - value) <= 0.51 * place + 1e-9 * max(abs(value), 1.0)
 
 
 def near(text: str, value: float, digits: int = 3) -> bool:

@@ -134,8 +134,8 @@ def _by_preset(lesson: Lesson, text: str) -> Iterator[tuple[str, Any]]:
         if at >= 0 and len(preset.title.split(":")[0]) > 4:
             starts[at] = preset.params
     cuts = [*sorted(starts), len(text)]
-    for here, there in itertools.pairwise(cuts):
-        yield text[here:there], starts[here]
+    for here, end in itertools.pairwise(cuts):
+        yield text[here:end], starts[here]
 
 
 def read(name: str, question: str, innocent: str) -> Iterator[Passage]:
@@ -258,13 +258,13 @@ def numbers(text: str) -> Iterator[tuple[float, str]]:
 
     A bare number, behind an equals sign or in a table, has the unit "".
     """
-    for found in NUMBERS.finditer(text):
-        behind = re.match(r"[)\s]*([°%π]|m[²⁻][²¹]?|[A-Za-z]+)?", text[found.end() :])
+    for match in NUMBERS.finditer(text):
+        behind = re.match(r"[)\s]*([°%π]|m[²⁻][²¹]?|[A-Za-z]+)?", text[match.end() :])
         word = (behind.group(1) if behind else None) or ""
         unit, factor = UNITS.get(word, (stem(word) or "none", 1.0))
-        if unit not in BASE and re.search(r"[=≈<>|] ?$", text[: found.start()]):
+        if unit not in BASE and re.search(r"[=≈<>|] ?$", text[: match.start()]):
             unit = ""
-        for each in re.findall(COUNT, found.group(), re.IGNORECASE):
+        for each in re.findall(COUNT, match.group(), re.IGNORECASE):
             yield number(each) * factor, unit
 
 
@@ -347,12 +347,12 @@ def stem(word: str) -> str:
 @functools.cache
 def words(text: str) -> set[str]:
     """Return the stems of the content words of a text: without small words, numbers and units."""
-    found = {
+    stems = {
         stem(word)
         for word in re.findall(r"[^\W\d_]+", text)
         if word.lower() not in SMALL and word not in UNITS
     }
-    return found - {stem(word) for word in (*WORDS, *PARTS)}
+    return stems - {stem(word) for word in (*WORDS, *PARTS)}
 
 
 def choice_words(text: str) -> set[str]:
@@ -393,9 +393,9 @@ def by_hand(
 ) -> Iterator[tuple[Passage, str]]:
     """Yield the passages with a sentence that was listed as one that tells the answer."""
     for passage, pattern in itertools.product(texts, patterns):
-        found = re.search(pattern, passage.text, re.IGNORECASE)
-        if found and passage.question != question.name:
-            yield passage, f"says {found.group()!r}"
+        match = re.search(pattern, passage.text, re.IGNORECASE)
+        if match and passage.question != question.name:
+            yield passage, f"says {match.group()!r}"
 
 
 def spoilers(
@@ -403,9 +403,9 @@ def spoilers(
 ) -> list[str]:
     """Return one line for every passage that gives the answer away, with what does."""
     texts, right = list(read(name, question.name, innocent)), facts(name)[1][question.name]
-    found = [*(by_choice if question.choices else by_number)(question, right, texts)]
+    by_rule = [*(by_choice if question.choices else by_number)(question, right, texts)]
     reasons: dict[str, list[str]] = {}
-    for passage, why in [*found, *by_hand(question, giveaways, texts)]:
-        said = reasons.setdefault(f"{passage.where}: {passage.text}", [])
-        said += [why] if why not in said else []
+    for passage, why in [*by_rule, *by_hand(question, giveaways, texts)]:
+        whys = reasons.setdefault(f"{passage.where}: {passage.text}", [])
+        whys += [why] if why not in whys else []
     return [f"{where}  [{'; '.join(why)}]" for where, why in reasons.items()]

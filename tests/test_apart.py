@@ -59,7 +59,7 @@ def uploads(tmp_path) -> Iterator[Path]:
 
 
 @pytest.mark.parametrize(
-    ("how", "said"),
+    ("how", "message"),
     [
         ("busy", "takes too long"),
         ("greedy", "more memory than it may"),
@@ -67,8 +67,8 @@ def uploads(tmp_path) -> Iterator[Path]:
         ("wrong", r"not readable \(IndexError\)"),
     ],
 )
-def test_what_goes_wrong_is_one_line_and_the_next_file_is_read(tmp_path, capfd, how, *, said):
-    with allowing(replace(PAGE, seconds=1)), pytest.raises(InputError, match=f"a.xyz: .*{said}"):
+def test_what_goes_wrong_is_one_line_and_the_next_file_is_read(tmp_path, capfd, how, *, message):
+    with allowing(replace(PAGE, seconds=1)), pytest.raises(InputError, match=f"a.xyz: .*{message}"):
         stands(tmp_path / "a.xyz", how)
     assert stands(tmp_path / "a.xyz", "well") != os.getpid()
     assert capfd.readouterr() == ("", "")
@@ -174,7 +174,7 @@ LARGE = {
 def spent() -> float:
     """Return seconds of processor of this process and of those that it started, ended or not."""
     times = [child.cpu_times() for child in psutil.Process().children()]
-    return sum(os.times()[:4]) + sum(one.user + one.system for one in times)
+    return sum(os.times()[:4]) + sum(cpu.user + cpu.system for cpu in times)
 
 
 @pytest.mark.parametrize("name", LARGE)

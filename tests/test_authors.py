@@ -340,9 +340,9 @@ def test_a_lesson_in_a_file_that_fails_is_one_line_with_file_and_line_and_exit_c
         "publish": ["publish", str(tmp_path / "site"), "--lesson", str(file)],
     }[command]
     assert main(words) == 2
-    said = capsys.readouterr().err.strip().splitlines()
-    one_line(said[-1], "my_lesson.py, " + place)
-    assert len([line for line in said if "workbench:" in line]) == 1
+    lines = capsys.readouterr().err.strip().splitlines()
+    one_line(lines[-1], "my_lesson.py, " + place)
+    assert len([line for line in lines if "workbench:" in line]) == 1
 
 
 def test_an_error_deep_in_our_code_is_told_by_the_line_of_the_lesson_that_led_there():

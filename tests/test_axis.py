@@ -25,12 +25,12 @@ def test_ticks_are_few_round_and_inside(low, span, most):
     high = low + span
     if not high - low > 1e-9 * abs(low):
         return
-    found = ticks(low, high, most)
-    assert 1 <= len(found) <= most
-    assert (found >= low - 1e-6 * span).all()
-    assert (found <= high + 1e-6 * span).all()
-    if len(found) > 1:
-        step = found[1] - found[0]
+    places = ticks(low, high, most)
+    assert 1 <= len(places) <= most
+    assert (places >= low - 1e-6 * span).all()
+    assert (places <= high + 1e-6 * span).all()
+    if len(places) > 1:
+        step = places[1] - places[0]
         first = float(f"{step:.6e}"[0])
         assert first in (1, 2, 5, 9)  # 9: a one that rounding took down
 
@@ -118,7 +118,7 @@ def test_no_label_is_longer_than_its_axis(chart, unit, expected):
     ],
 )
 def test_logarithms_are_said_as_the_numbers_that_they_are_of(low, high, words):
-    found = of_powers(axis(low, high, 4))
-    assert found.words == words
-    assert (found.low, found.high) == (low, high)
-    assert all(low <= place <= high for place in found.ticks)
+    powers = of_powers(axis(low, high, 4))
+    assert powers.words == words
+    assert (powers.low, powers.high) == (low, high)
+    assert all(low <= place <= high for place in powers.ticks)

@@ -13,15 +13,15 @@ DEFINITION = ast.FunctionDef | ast.ClassDef
 
 def uses(tree: ast.AST) -> Counter[str]:
     """How often each name is read, called or imported."""
-    found: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     for node in ast.walk(tree):
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
-            found[node.id] += 1
+            counts[node.id] += 1
         elif isinstance(node, ast.Attribute):
-            found[node.attr] += 1
+            counts[node.attr] += 1
         elif isinstance(node, ast.ImportFrom):
-            found.update(alias.name for alias in node.names)
-    return found
+            counts.update(alias.name for alias in node.names)
+    return counts
 
 
 def left_over(tree: ast.Module, used: Counter[str]) -> list[str]:
@@ -52,7 +52,7 @@ def test_what_is_defined_is_used_or_shown():
     for tree in trees.values():
         used.update(uses(tree))
     assert {
-        str(path.relative_to(ROOT)): found
+        str(path.relative_to(ROOT)): unused
         for path, tree in trees.items()
-        if (found := left_over(tree, used))
+        if (unused := left_over(tree, used))
     } == {}

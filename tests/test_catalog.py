@@ -41,12 +41,12 @@ def test_a_third_party_s_lesson_joins(registered):
 
 
 @pytest.mark.parametrize(
-    ("value", "said"),
+    ("value", "message"),
     [("no_such_module:lesson", "no_such_module"), ("tests.fake:run", "of type Lesson")],
 )
-def test_a_third_party_s_broken_lesson_is_left_out_and_named(registered, value, said):
+def test_a_third_party_s_broken_lesson_is_left_out_and_named(registered, value, message):
     registered(value)
-    with pytest.warns(UserWarning, match=f"lesson theirs .* is left out: .*{said}"):
+    with pytest.warns(UserWarning, match=f"lesson theirs .* is left out: .*{message}"):
         assert "icp" in list(catalog())
 
 
@@ -56,13 +56,13 @@ def test_a_lesson_from_a_file_or_a_line_that_says_why_not(tmp_path):
         load(file)
     file.write_text("from tests.fake import lesson\n")
     assert load(file) is fake.lesson
-    for text, said in (
+    for text, message in (
         ("lesson = 3\n", "of type Lesson"),
         ("1 / 0\n", "ZeroDivisionError"),
         ("raise SystemExit(0)\n", "SystemExit"),
     ):
         file.write_text(text)
-        with pytest.raises(InputError, match=f"mine.py: .*{said}"):
+        with pytest.raises(InputError, match=f"mine.py: .*{message}"):
             load(file)
     with pytest.raises(
         InputError, match="no lesson is named 'nothing'; there are: transforms, rotations"

@@ -127,8 +127,8 @@ class TestRecord:
             )
             == 0
         )
-        said, complaints = capsys.readouterr()
-        assert said == f"{out}: 3 steps, {out.stat().st_size / 1e6:.1f} MB\n"
+        printed, complaints = capsys.readouterr()
+        assert printed == f"{out}: 3 steps, {out.stat().st_size / 1e6:.1f} MB\n"
         assert complaints == ""  # a bar is for terminals only
         recording = open_recording(out)
         assert (recording.lesson, recording.seed, len(recording)) == ("fake", 7, 3)

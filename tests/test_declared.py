@@ -26,17 +26,17 @@ def imported() -> dict[str, Path]:
     """Return every top-level module that our packages import and do not hold themselves, with a
     file that does.
     """
-    found = {}
+    files = {}
     for file in sorted([*ROOT.glob("workbench/**/*.py"), *ROOT.glob("lessons/**/*.py")]):
         for node in ast.walk(ast.parse(file.read_bytes())):
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             if isinstance(node, ast.ImportFrom) and not node.level and node.module:
                 names = [node.module]
-            found |= {name.partition(".")[0]: file for name in names}
+            files |= {name.partition(".")[0]: file for name in names}
     ours = {"workbench", "lessons", *(path.stem for path in (ROOT / BESIDE).glob("*.py"))}
     return {
         name: file
-        for name, file in found.items()
+        for name, file in files.items()
         if name not in sys.stdlib_module_names and name not in ours
     }
 
@@ -48,7 +48,7 @@ def plain(name: str) -> str:
 
 def test_what_is_imported_is_declared_and_what_is_declared_is_used():
     homes = importlib.metadata.packages_distributions()
-    asked = {plain(one.name) for one in ASKED}
+    asked = {plain(requirement.name) for requirement in ASKED}
     needed = {name: {plain(home) for home in homes.get(name, ())} for name in imported()}
     needed.pop("distributed")  # for `--dask` alone, which says how to install it
     needed.pop("av")  # for .mp4 alone, likewise
@@ -62,7 +62,7 @@ def test_what_is_imported_is_declared_and_what_is_declared_is_used():
 
 def test_our_lower_bounds_are_none_that_what_we_ask_for_forbids():
     """msgspec>=0.18 was none: viser asks for 0.18.6."""
-    ours = {plain(one.name): one.specifier for one in ASKED}
+    ours = {plain(requirement.name): requirement.specifier for requirement in ASKED}
     for asked in ASKED:
         for line in importlib.metadata.requires(asked.name) or ():
             theirs = Requirement(line)
@@ -70,7 +70,9 @@ def test_our_lower_bounds_are_none_that_what_we_ask_for_forbids():
                 theirs.marker and not theirs.marker.evaluate({"extra": ""})
             ):
                 continue
-            lowest = next(one.version for one in ours[plain(theirs.name)] if one.operator == ">=")
+            lowest = next(
+                bound.version for bound in ours[plain(theirs.name)] if bound.operator == ">="
+            )
             padded = [lowest, f"{lowest}.0", f"{lowest}.0.0"]
             assert any(theirs.specifier.contains(version) for version in padded), (
                 f"{asked.name} needs {line}"

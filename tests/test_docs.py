@@ -45,13 +45,13 @@ def test_every_test_that_the_security_page_names_is_there(named):
     path, *names = named.split("::")
     inside: list[ast.stmt] = ast.parse(read(path)).body
     for name in names:
-        found = [
+        definitions = [
             node
             for node in inside
             if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name == name
         ]
-        assert found, f"{path} has no {name}"
-        inside = found[0].body
+        assert definitions, f"{path} has no {name}"
+        inside = definitions[0].body
 
 
 # links --------------------------------------------------------------------------------------------
@@ -187,8 +187,8 @@ def test_every_module_of_the_maths_is_in_the_reference():
             for path in folder.rglob("[!_]*.py")
             if "import *" not in path.read_text(encoding="utf-8")
         ]
-        there = [".".join(path.relative_to(folder).with_suffix("").parts) for path in paths]
-        assert sorted(listed) == sorted(there), part
+        modules = [".".join(path.relative_to(folder).with_suffix("").parts) for path in paths]
+        assert sorted(listed) == sorted(modules), part
 
 
 PRIVATE = re.findall(r"^\| `([^`]+)` \| `([^`]+)`", read("docs/upgrading.md"), re.MULTILINE)
@@ -198,8 +198,8 @@ PRIVATE = re.findall(r"^\| `([^`]+)` \| `([^`]+)`", read("docs/upgrading.md"), r
     ("file", "word"), PRIVATE, ids=[f"{file}: {word}" for file, word in PRIVATE]
 )
 def test_what_is_relied_on_of_viser_and_rerun_is_where_the_page_says(file, word):
-    found = re.search(rf"(?<!\w){re.escape(word)}(?!\w)", read(file))
-    assert found, f"{file} has no {word}: docs/upgrading.md is out of date"
+    match = re.search(rf"(?<!\w){re.escape(word)}(?!\w)", read(file))
+    assert match, f"{file} has no {word}: docs/upgrading.md is out of date"
 
 
 def test_the_citation_names_this_version():
@@ -208,6 +208,6 @@ def test_the_citation_names_this_version():
 
 def test_packages_that_are_pinned_are_pinned_as_said():
     for pin in ("viser>=", "rerun-sdk>="):
-        said = re.search(rf"`({pin}[^`]+)`", read("docs/upgrading.md"))
-        assert said
-        assert f'"{said[1]}"' in read("pyproject.toml")
+        match = re.search(rf"`({pin}[^`]+)`", read("docs/upgrading.md"))
+        assert match
+        assert f'"{match[1]}"' in read("pyproject.toml")

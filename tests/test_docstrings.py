@@ -37,16 +37,16 @@ def public(body: list[ast.stmt]) -> list[ast.FunctionDef]:
 
 def functions() -> dict[str, ast.FunctionDef]:
     """All public functions of both packages, and public methods, by name."""
-    found = {}
+    by_name = {}
     for path in MODULES:
         body = ast.parse(path.read_text(encoding="utf-8")).body
-        found |= {f"{name_of(path)}.{node.name}": node for node in public(body)}
+        by_name |= {f"{name_of(path)}.{node.name}": node for node in public(body)}
         for owner in body:
             if isinstance(owner, ast.ClassDef) and not owner.name.startswith("_"):
-                found |= {
+                by_name |= {
                     f"{name_of(path)}.{owner.name}.{node.name}": node for node in public(owner.body)
                 }
-    return found
+    return by_name
 
 
 FUNCTIONS = functions()
@@ -66,8 +66,8 @@ def arguments(node: ast.FunctionDef) -> list[str]:
 
 def section(text: str, heading: str) -> str:
     """The indented lines below a heading of a docstring; empty where it has none."""
-    found = re.search(rf"^{heading}:\n((?: +.*\n?|\n(?= ))+)", text, re.MULTILINE)
-    return found[1] if found else ""
+    match = re.search(rf"^{heading}:\n((?: +.*\n?|\n(?= ))+)", text, re.MULTILINE)
+    return match[1] if match else ""
 
 
 def raised(node: ast.FunctionDef) -> set[str]:

@@ -18,7 +18,7 @@ WITH_DOCSTRING = ast.FunctionDef | ast.ClassDef | ast.Module
 
 def examples() -> list[tuple[str, str, str]]:
     """Every docstring with an example: module, name, text."""
-    found = []
+    docstrings = []
     for part in ("geometry", "algorithms"):
         for path in sorted((ROOT / "workbench" / part).rglob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -27,8 +27,8 @@ def examples() -> list[tuple[str, str, str]]:
                     module = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(
                         ".__init__"
                     )
-                    found.append((module, getattr(node, "name", path.stem), text))
-    return found
+                    docstrings.append((module, getattr(node, "name", path.stem), text))
+    return docstrings
 
 
 EXAMPLES = examples()
@@ -37,10 +37,10 @@ EXAMPLES = examples()
 def failures(module: str, name: str, text: str) -> str:
     """What doctest has to say of a docstring's examples that fail; nothing where all hold."""
     names = dict(vars(importlib.import_module(module)))
-    said: list[str] = []
+    report: list[str] = []
     test = doctest.DocTestParser().get_doctest(text, names, f"{module}.{name}", None, None)
-    doctest.DocTestRunner(verbose=False).run(test, out=said.append)
-    return "".join(said)
+    doctest.DocTestRunner(verbose=False).run(test, out=report.append)
+    return "".join(report)
 
 
 def test_the_most_used_functions_have_examples():
@@ -51,8 +51,8 @@ def test_the_most_used_functions_have_examples():
     ("module", "name", "text"), EXAMPLES, ids=[f"{module}.{name}" for module, name, _ in EXAMPLES]
 )
 def test_an_example_gives_what_it_shows(module, name, text):
-    said = failures(module, name, text)
-    assert not said, said
+    report = failures(module, name, text)
+    assert not report, report
 
 
 def test_an_example_that_does_not_hold_is_found():

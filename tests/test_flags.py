@@ -56,8 +56,8 @@ def values_of(field) -> st.SearchStrategy:
     if field.kind == "path":
         return st.none()
     whole = field.kind in ("int", "ints")
-    one = st.integers(int(knob.low), int(knob.high)) if whole else st.floats(knob.low, knob.high)
-    return st.tuples(*[one] * field.length) if field.length else one
+    number = st.integers(int(knob.low), int(knob.high)) if whole else st.floats(knob.low, knob.high)
+    return st.tuples(*[number] * field.length) if field.length else number
 
 
 @settings(max_examples=40, derandomize=True, deadline=None)

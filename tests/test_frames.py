@@ -103,10 +103,10 @@ def check(source: str) -> None:
         if isinstance(node, ast.expr):
             frames_of(node)
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
-            said = frames_of(node.targets[0])
+            declared = frames_of(node.targets[0])
             is_ = frames_of(node.value)
-            if said is not None and is_ is not None and said != is_:
-                raise FrameError(f"line {node.lineno}: {said} is assigned what is {is_}")
+            if declared is not None and is_ is not None and declared != is_:
+                raise FrameError(f"line {node.lineno}: {declared} is assigned what is {is_}")
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))

@@ -151,13 +151,13 @@ def test_a_file_opens_what_shows_it(params, files, shown):
 def test_a_choice_that_hides_the_file_is_refused_in_the_words_of_the_reader():
     with pytest.raises(InputError) as refused:
         knobs.showing(Params(cloud=Path("a")), ["cloud"], kept=["form"])
-    said = str(refused.value)
-    assert said == "“cloud” is read where “form” is cloud or mesh"
-    assert knobs.in_words(said, Params) == "“Cloud” is read where “Form” is cloud or mesh"
+    message = str(refused.value)
+    assert message == "“cloud” is read where “form” is cloud or mesh"
+    assert knobs.in_words(message, Params) == "“Cloud” is read where “Form” is cloud or mesh"
     with knobs.called_by_flags():
-        assert knobs.in_words(said, Params) == "--cloud is read where --form is cloud or mesh"
+        assert knobs.in_words(message, Params) == "--cloud is read where --form is cloud or mesh"
         assert knobs.in_words("“nobody”", Params) == "“nobody”"
-    assert knobs.in_words(said, Params) == "“Cloud” is read where “Form” is cloud or mesh"
+    assert knobs.in_words(message, Params) == "“Cloud” is read where “Form” is cloud or mesh"
 
 
 @dataclass(frozen=True)

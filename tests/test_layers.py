@@ -174,20 +174,20 @@ def name_of(path: Path) -> str:
 
 
 def imports(path: Path) -> set[str]:
-    found = set()
+    modules = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            modules |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path.name}: write imports in full"
             module = node.module or ""
             folder = ROOT / module.replace(".", "/")
             for alias in node.names:
-                there = (folder / f"{alias.name}.py").exists() or (
+                is_module = (folder / f"{alias.name}.py").exists() or (
                     folder / alias.name / "__init__.py"
                 ).exists()
-                found.add(f"{module}.{alias.name}" if there else module)
-    return found
+                modules.add(f"{module}.{alias.name}" if is_module else module)
+    return modules
 
 
 def inside(name: str, roots) -> bool:

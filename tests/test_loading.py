@@ -84,11 +84,11 @@ def test_an_error_in_a_file_of_the_folder_is_told_by_that_file_and_line(folder):
 
 
 @pytest.mark.parametrize(
-    ("name", "said"), [("none", "no such file or folder"), ("empty", "without a lesson.py")]
+    ("name", "message"), [("none", "no such file or folder"), ("empty", "without a lesson.py")]
 )
-def test_what_is_no_lesson_is_said(tmp_path, name, said):
+def test_what_is_no_lesson_is_said(tmp_path, name, message):
     (tmp_path / "empty").mkdir()
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         lesson_given(str(tmp_path / name))
 
 
@@ -153,9 +153,9 @@ def test_a_folder_s_exercise_is_handed_out_watched_checked_and_graded(
     mine.write_text(text.replace("raise NotImplementedError", wrong), encoding="utf-8")
     capsys.readouterr()
     assert main(["check", str(mine), "--lesson", "circle", "--hidden"]) == 1
-    said = capsys.readouterr().out
-    assert "You took the mean of the points for the centre" in said
-    assert "my_fit_circle.rrd" in said
+    printed = capsys.readouterr().out
+    assert "You took the mean of the points for the centre" in printed
+    assert "my_fit_circle.rrd" in printed
     assert main(["show", "circle", "--with", str(mine)]) == 0
     watched[0].close()
     (tmp_path / "class").mkdir()

@@ -59,7 +59,7 @@ def test_every_question_of_before_is_asked_somewhere(lesson, question):
     }
     (to, name), *more = places.items() or {lesson: question}.items()
     assert not more
-    assert name in {one.name for one in catalog()[to].questions}
+    assert name in {asked.name for asked in catalog()[to].questions}
 
 
 def test_params_of_the_stage_of_pairs_open_the_lesson_of_pairs():
@@ -117,7 +117,7 @@ def test_a_move_names_what_there_is(move):
     fields = {field.name for field in fields_of(new.params)}
     assert set(move.base) <= fields
     assert make(new.params, dict(move.base))
-    stays = any(one.lesson == one.to == move.lesson for one in MOVES)
+    stays = any(other.lesson == other.to == move.lesson for other in MOVES)
     assert (move.lesson in catalog()) == stays
     led_on = runs_led_on(move.lesson)
     assert all(led_on[old] == (move.to, name) for old, name in move.presets.items())
@@ -174,9 +174,9 @@ def test_a_recording_of_before_is_reopened(tmp_path, monkeypatch):
         "noise": 0.02,
     }
     monkeypatch.setattr(read, "open_recording", lambda path: _with(old, params))
-    lesson, found, lines = read.reopening(path)
+    lesson, reopened, lines = read.reopening(path)
     assert lesson.name == "pairs"
-    assert (found.mirrored, found.noise, found.points) == (True, 0.02, 200)
+    assert (reopened.mirrored, reopened.noise, reopened.points) == (True, 0.02, 200)
     assert any("is one of the lesson pairs now" in line for line in lines)
 
 

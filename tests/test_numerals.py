@@ -44,7 +44,7 @@ def test_brief_is_the_number_to_its_digits(value, digits):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "expected"),
     [
         (fixed(-0.001, 2), "0.00"),
         (fixed(-90.0, 0), "−90"),
@@ -104,12 +104,12 @@ def test_brief_is_the_number_to_its_digits(value, digits):
         (counted(1234, "sample"), "1,234 samples"),
     ],
 )
-def test_numerals(text, said):
-    assert text == said
+def test_numerals(text, expected):
+    assert text == expected
 
 
 @pytest.mark.parametrize(
-    ("value", "deviation", "said"),
+    ("value", "deviation", "expected"),
     [
         (535.5604, 1.558, ("535.6", "1.6")),
         (612.8579, 161.007, ("610", "160")),
@@ -119,8 +119,8 @@ def test_numerals(text, said):
         (3.0, 4321.0, ("0", "4,300")),
     ],
 )
-def test_a_value_has_no_digit_that_its_deviation_drowns(value, deviation, said):
-    assert plus_minus(value, deviation) == said
+def test_a_value_has_no_digit_that_its_deviation_drowns(value, deviation, expected):
+    assert plus_minus(value, deviation) == expected
 
 
 @pytest.mark.parametrize("deviation", [0.0, -1.0, math.nan, math.inf])

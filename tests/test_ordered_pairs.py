@@ -41,16 +41,16 @@ def scenes_of(name: str) -> tuple[list[Scene], list[Scene]]:
 def asked_alone(name: str) -> list[Scene]:
     """Return the scenes of questions whose run is no preset's, where they open."""
     lesson = catalog()[name]
-    found = []
+    scenes = []
     for question in lesson.questions:
         if question.params != lesson.params() and lesson.preset_of(question.params) is None:
             timeline = finished(name, question.params)
-            found.append(
+            scenes.append(
                 thinned(
                     timeline[(-1 if question.step is None else question.step) % len(timeline)].scene
                 )
             )
-    return found
+    return scenes
 
 
 def thinned(scene: Scene) -> Scene:
@@ -174,7 +174,7 @@ class Stream:
             for batch in archetype.as_component_batches():
                 values = batch.as_arrow_array()
                 if isinstance(archetype, rr.AnnotationContext):
-                    infos = [one["class_description"]["info"] for one in values.to_pylist()[0]]
+                    infos = [entry["class_description"]["info"] for entry in values.to_pylist()[0]]
                     self._classes = {info["id"]: (info["label"], info["color"]) for info in infos}
                 else:
                     self._latest.setdefault(entity, {})[str(batch.component_descriptor())] = values

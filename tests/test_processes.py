@@ -75,10 +75,10 @@ def vanish_or_hang(number: int) -> int:
 
 @pytest.mark.parametrize("start", ["spawn", "fork"])
 def test_what_is_lost_or_takes_too_long_costs_no_other(start):
-    found = parallel_map(
+    results = parallel_map(
         vanish_or_hang, range(6), 2, seconds=3.0, lost=lambda number: -number, start=start
     )
-    assert sorted(found) == [(0, 0), (1, -1), (2, -2), (3, 3), (4, 4), (5, 5)]
+    assert sorted(results) == [(0, 0), (1, -1), (2, -2), (3, 3), (4, 4), (5, 5)]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
@@ -101,8 +101,8 @@ def test_workers_end_with_the_process_that_started_them(tmp_path, how):
             os.killpg(process.pid, how)  # as a terminal does
         else:
             process.send_signal(how)
-        said, _ = process.communicate(timeout=PATIENCE)  # ends when nobody holds the pipe any more
-        assert said.count(b"Traceback") == (how == signal.SIGINT), said.decode()
+        log, _ = process.communicate(timeout=PATIENCE)  # ends when nobody holds the pipe any more
+        assert log.count(b"Traceback") == (how == signal.SIGINT), log.decode()
         until(lambda: not any(is_alive(worker) for worker in workers))
 
 
@@ -127,9 +127,9 @@ def is_alive(process: int) -> bool:
         return False
 
 
-def until(what) -> None:
+def until(condition) -> None:
     """Wait for a state."""
     end = time.monotonic() + PATIENCE
-    while not what():
+    while not condition():
         assert time.monotonic() < end, "it never came"
         time.sleep(0.01)

@@ -24,9 +24,9 @@ KEPT = Timelines()
     ],
 )
 def test_a_prediction_is_compared_with_the_run(question, given, right, *, truth):
-    found = answer(lesson, question, given, timelines=KEPT)
-    assert (found.right, found.truth) == (right, truth)
-    assert found.step == 5
+    answered = answer(lesson, question, given, timelines=KEPT)
+    assert (answered.right, answered.truth) == (right, truth)
+    assert answered.step == 5
     assert len(KEPT) == 1
 
 
@@ -60,7 +60,7 @@ def test_what_is_no_answer_to_a_question_is_refused(question, given, words):
         answer(lesson, question, given, timelines=KEPT)
 
 
-@pytest.mark.parametrize("of_course", course().values(), ids=lambda one: one.name)
+@pytest.mark.parametrize("of_course", course().values(), ids=lambda of_course: of_course.name)
 def test_every_question_of_the_course_knows_its_wrong_answers(of_course):
     for question in of_course.questions:
         if question.choices:

@@ -28,7 +28,7 @@ def test_so_is_a_share(value):
 
 
 @pytest.mark.parametrize(
-    ("text", "share", "said"),
+    ("text", "share", "agrees"),
     [
         ("0 %", 0.0, True),
         ("0 %", 0.004, False),
@@ -40,5 +40,5 @@ def test_so_is_a_share(value):
         ("129 %", 1.31, False),
     ],
 )
-def test_shares(text, share, said):
-    assert says_percent(text, share) is said
+def test_shares(text, share, agrees):
+    assert says_percent(text, share) is agrees

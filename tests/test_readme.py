@@ -37,10 +37,10 @@ def lesson_file(tmp_path) -> Path:
 
 def test_the_example_in_python(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said):
+    output = io.StringIO()
+    with contextlib.redirect_stdout(output):
         exec(compile(example("From Python"), "README.md", "exec"), {})
-    shown, caption, *curves = said.getvalue().splitlines()
+    shown, caption, *curves = output.getvalue().splitlines()
     recording = open_recording("icp.rrd")
     assert shown == repr(recording)
     assert recording.params["start_angle"] == 60
@@ -115,9 +115,9 @@ def test_a_page_that_is_not_there_is_one_line_with_lesson_and_path(
 def test_a_page_that_goes_away_is_one_line_too(tmp_path, lesson_file):
     page = tmp_path / "page.md"
     page.write_text("# Here", encoding="utf-8")
-    found = load(lesson_file)
+    loaded = load(lesson_file)
     lesson = Lesson(
-        **{name: getattr(found, name) for name in found.__dataclass_fields__} | {"page": page}
+        **{name: getattr(loaded, name) for name in loaded.__dataclass_fields__} | {"page": page}
     )
     assert lesson.text() == "# Here"
     page.unlink()

@@ -185,10 +185,10 @@ def test_what_a_chart_makes_shares_its_plot():
         chart.dots(x, x, "b"),
         chart.histogram(np.array([0.5, 1.5, 1.6]), 2, "c"),
     ]
-    assert {(one.chart, one.x_label, one.y_label) for one in made} == {
+    assert {(curve.chart, curve.x_label, curve.y_label) for curve in made} == {
         ("error", "distance (m)", "px")
     }
-    assert [one.kind for one in made] == ["line", "dots", "bars"]
+    assert [curve.kind for curve in made] == ["line", "dots", "bars"]
     assert made[2].y.sum() == 3
     assert (made[2].y == [1, 2]).all()
     np.testing.assert_allclose(made[2].x, [0.775, 1.325])

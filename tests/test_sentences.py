@@ -58,18 +58,18 @@ def texts(scene: Scene) -> Iterator[str]:
 
 def faults(text: str) -> list[str]:
     """What is wrong with a text."""
-    return [f"{what} in: {text}" for what, pattern in BAD.items() if pattern.search(text)]
+    return [f"{fault} in: {text}" for fault, pattern in BAD.items() if pattern.search(text)]
 
 
 def said_of(scene: Scene) -> list[str]:
     """What is wrong with what a scene says."""
-    found = [fault for text in texts(scene) for fault in faults(text)]
+    findings = [fault for text in texts(scene) for fault in faults(text)]
     for primitive in scene.values():
         if isinstance(primitive, Caption):
             text = primitive.text
-            found += [f"no full stop: {text}"] * (text[-1] not in ".!?")
-            found += [f"{len(text)} letters: {text}"] * (len(text) > MOST_WORDS)
-    return found
+            findings += [f"no full stop: {text}"] * (text[-1] not in ".!?")
+            findings += [f"{len(text)} letters: {text}"] * (len(text) > MOST_WORDS)
+    return findings
 
 
 def values_of(field: KnobField) -> st.SearchStrategy:
@@ -81,17 +81,17 @@ def values_of(field: KnobField) -> st.SearchStrategy:
         return st.sampled_from((False, True) if field.kind == "bool" else field.choices)
     low, high = knob.low or 0, knob.high or 0
     if field.kind in ("int", "ints"):
-        one = st.integers(int(low), int(max(low, min(high, SMALL))))
+        number = st.integers(int(low), int(max(low, min(high, SMALL))))
     else:
         odd = [
             value
             for value in (low, high, 0.0, 1e-7, -1e-7, 0.5 * (low + high))
             if low <= value <= high
         ]
-        one = st.sampled_from(odd) | st.floats(low, high, allow_nan=False).map(
+        number = st.sampled_from(odd) | st.floats(low, high, allow_nan=False).map(
             lambda value: round(value, 4)
         )
-    return one if field.length == 0 else st.tuples(*[one] * field.length)
+    return number if field.length == 0 else st.tuples(*[number] * field.length)
 
 
 @st.composite
@@ -113,8 +113,8 @@ def hear(lesson: Lesson, params: Any) -> None:
     while len(timeline) < STEPS and timeline.extend():
         pass
     assert timeline.failure is None, timeline.failure
-    found = [fault for step in timeline.known() for fault in said_of(step.scene)]
-    assert not found, f"{len(found)} findings, such as:\n" + "\n".join(found[:5])
+    findings = [fault for step in timeline.known() for fault in said_of(step.scene)]
+    assert not findings, f"{len(findings)} findings, such as:\n" + "\n".join(findings[:5])
 
 
 @pytest.mark.parametrize("lesson", catalog().values(), ids=catalog())
@@ -175,13 +175,13 @@ def written_of(lesson: Lesson) -> Iterator[str]:
 
 @pytest.mark.parametrize("lesson", catalog().values(), ids=catalog())
 def test_no_text_has_a_typists_signs(lesson: Lesson):
-    found = [
+    findings = [
         fault
         for text in written_of(lesson)
         for fault in faults(text)
         if "number that is none" not in fault
     ]
-    assert not found, "\n".join(found)
+    assert not findings, "\n".join(findings)
 
 
 def test_a_bad_text_is_found():

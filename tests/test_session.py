@@ -198,12 +198,12 @@ def test_a_preset_opens_where_it_says():
 
 def test_two_sessions_share_runs_but_not_places():
     shared = Timelines()
-    one, two = Session(lesson, shared), Session(lesson, shared)
-    finish(one)
-    one.seek(3)
-    two.seek(1)
-    assert one.timeline is two.timeline
-    assert (one.step, two.step) == (3, 1)
+    first, second = Session(lesson, shared), Session(lesson, shared)
+    finish(first)
+    first.seek(3)
+    second.seek(1)
+    assert first.timeline is second.timeline
+    assert (first.step, second.step) == (3, 1)
 
 
 def test_a_session_with_a_students_function_does_not_share_its_run():

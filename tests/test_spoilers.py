@@ -27,13 +27,13 @@ def listed(name: str) -> Any:
 def test_nothing_before_a_prediction_tells_its_answer(name, question):
     of_lesson = listed(name)
     giveaways = of_lesson.GIVEAWAYS.get(question.name, ())
-    found = spoilers(
+    findings = spoilers(
         name,
         question,
         giveaways,
         innocent=getattr(of_lesson, "INNOCENT", {}).get(question.name, ""),
     )
-    assert not found, "\n".join(["the answer is given away:", *found])
+    assert not findings, "\n".join(["the answer is given away:", *findings])
 
 
 @pytest.mark.parametrize("name", catalog())

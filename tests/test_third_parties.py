@@ -94,7 +94,7 @@ def install(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("values", "said"),
+    ("values", "message"),
     [
         (
             ["tests.test_third_parties:icp"],
@@ -111,10 +111,10 @@ def install(monkeypatch):
     ],
 )
 def test_a_lesson_with_a_taken_name_is_left_out_and_both_places_are_named(
-    capsys, install, values, *, said
+    capsys, install, values, *, message
 ):
     install(*values)
-    with pytest.warns(LeftOutWarning, match=said):
+    with pytest.warns(LeftOutWarning, match=message):
         assert main(["list"]) == 0
     lines = capsys.readouterr().out.splitlines()
     theirs = len(values) - 1
@@ -124,7 +124,7 @@ def test_a_lesson_with_a_taken_name_is_left_out_and_both_places_are_named(
 
 
 @pytest.mark.parametrize(
-    ("names", "said", "more"),
+    ("names", "message", "more"),
     [
         (
             ["taken"],
@@ -156,10 +156,10 @@ def test_a_lesson_with_a_taken_name_is_left_out_and_both_places_are_named(
     ],
 )
 def test_an_exercise_that_cannot_stand_is_left_out_and_its_place_is_named(
-    capsys, packages, install, *, names, said, more
+    capsys, packages, install, *, names, message, more
 ):
     install(*(f"their_{name}.lesson:lesson" for name in names))
-    with pytest.warns(LeftOutWarning, match=said):
+    with pytest.warns(LeftOutWarning, match=message):
         assert main(["exercise"]) == 0
     listed = [line.split()[:2] for line in capsys.readouterr().out.splitlines()]
     assert sorted(name for _, name in listed) == sorted([*OUR_EXERCISES, *more])
@@ -198,7 +198,7 @@ def test_what_is_left_out_is_one_line_where_a_person_reads_it(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("names", "exercise", "command", "said"),
+    ("names", "exercise", "command", "message"),
     [
         (
             ("same", "same"),
@@ -218,7 +218,7 @@ def test_what_is_left_out_is_one_line_where_a_person_reads_it(tmp_path):
     ],
 )
 def test_a_clash_inside_the_course_is_refused_with_both_places(
-    tmp_path, names, exercise, *, command, said
+    tmp_path, names, exercise, *, command, message
 ):
     for folder, name in zip(("one", "two"), names, strict=True):
         (tmp_path / "lessons" / folder / "exercises").mkdir(parents=True)
@@ -233,7 +233,7 @@ def test_a_clash_inside_the_course_is_refused_with_both_places(
     done = subprocess.run(
         [sys.executable, "-P", "-c", begin, command], capture_output=True, text=True, check=False
     )
-    assert (done.returncode, done.stderr) == (2, f"workbench: {said}\n")
+    assert (done.returncode, done.stderr) == (2, f"workbench: {message}\n")
 
 
 def test_two_lessons_of_one_name_are_not_published_together(tmp_path, capsys):

@@ -165,16 +165,16 @@ def test_series_are_read_while_another_thread_computes():
 
 def test_runs_are_shared_and_the_least_recently_used_is_dropped():
     kept = Timelines(most_runs=2)
-    one = kept.get(lesson, Params())
-    assert kept.get(lesson, Params()) is one
-    two = kept.get(lesson, Params(angle=10))
-    assert kept.get(lesson, Params()) is one
+    first = kept.get(lesson, Params())
+    assert kept.get(lesson, Params()) is first
+    second = kept.get(lesson, Params(angle=10))
+    assert kept.get(lesson, Params()) is first
     kept.get(lesson, Params(angle=20))
-    assert kept.get(lesson, Params()) is one
+    assert kept.get(lesson, Params()) is first
     assert len(kept) == 2
-    assert kept.get(lesson, Params(angle=10)) is two, "who holds a run shares it, kept or not"
-    gone = weakref.ref(two)
-    del two
+    assert kept.get(lesson, Params(angle=10)) is second, "who holds a run shares it, kept or not"
+    gone = weakref.ref(second)
+    del second
     kept.get(lesson, Params(angle=30))
     kept.get(lesson, Params(angle=40))
     assert gone() is None

@@ -74,7 +74,9 @@ def test_notes_of_own_files_stand_in_the_first_caption_alone(monkeypatch, tmp_pa
 
 def without(path: str, **others: Primitive) -> Timeline:
     def draw(state) -> dict:
-        return {key: one for key, one in lesson.draw(state).items() if key != path} | others
+        return {
+            key: primitive for key, primitive in lesson.draw(state).items() if key != path
+        } | others
 
     return Timeline(dataclasses.replace(lesson, draw=draw), Params()).complete()
 
@@ -82,7 +84,9 @@ def without(path: str, **others: Primitive) -> Timeline:
 def test_what_is_picked_has_to_be_shown_and_clickable():
     assert finished().stopped is None
     assert "shows nothing at 'plane'" in str(without("plane").stopped)
-    label = next(one for one in finished()[-1].scene.values() if isinstance(one, Label))
+    label = next(
+        primitive for primitive in finished()[-1].scene.values() if isinstance(primitive, Label)
+    )
     assert "a Label at 'plane'" in str(without("plane", plane=label).stopped)
 
 

@@ -17,11 +17,11 @@ def outer(n):
 
 
 def moments(generator):
-    found = []
+    traces = []
     with listening() as last:
         for _ in generator:
-            found.append(last())
-    return found
+            traces.append(last())
+    return traces
 
 
 def test_the_line_and_the_locals_of_the_yield_are_known():

@@ -74,11 +74,11 @@ def test_a_page_has_the_font_beside_it_or_in_it():
 
 def test_the_font_says_whose_it_is_and_under_which_licence():
     names = TTFont(io.BytesIO(math_font()))["name"]
-    said = {kind: names.getDebugName(kind) or "" for kind in (0, 7, 13, 14)}
-    assert "STIX Fonts Project Authors" in said[0]
-    assert "trademarks" in said[7]
-    assert "SIL Open Font License, Version 1.1" in said[13]
-    assert said[14] == "https://scripts.sil.org/OFL"
+    texts = {kind: names.getDebugName(kind) or "" for kind in (0, 7, 13, 14)}
+    assert "STIX Fonts Project Authors" in texts[0]
+    assert "trademarks" in texts[7]
+    assert "SIL Open Font License, Version 1.1" in texts[13]
+    assert texts[14] == "https://scripts.sil.org/OFL"
 
 
 def test_the_font_has_every_letter_of_every_formula():

@@ -28,8 +28,8 @@ def test_what_a_lesson_says_is_true(name):
         assert done.returncode == 0, done.stdout + done.stderr
         return
     ran = audit(catalog()[name], whole=False, run=lambda params: finished(name, params).states())
-    found = list(ran)
-    assert not found, "\n".join(found)
+    findings = list(ran)
+    assert not findings, "\n".join(findings)
 
 
 def test_every_lesson_has_a_judge():

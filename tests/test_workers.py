@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 def group(nodeid: str) -> str:
-    return next((found[1] for pattern in GROUPS if (found := pattern.match(nodeid))), nodeid)
+    return next((match[1] for pattern in GROUPS if (match := pattern.match(nodeid))), nodeid)
 
 
 def looks_at_all(text: str) -> bool:

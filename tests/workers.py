@@ -27,7 +27,7 @@ class Scheduling(LoadScopeScheduling):
     """
 
     def _split_scope(self, nodeid: str) -> str:
-        return next((found[1] for pattern in GROUPS if (found := pattern.match(nodeid))), nodeid)
+        return next((match[1] for pattern in GROUPS if (match := pattern.match(nodeid))), nodeid)
 
 
 def rank(nodeid: str) -> int:

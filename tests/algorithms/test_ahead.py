@@ -25,15 +25,19 @@ def test_samples_solved_and_judged_together_give_the_states_of_one_by_one(model,
         sigma=1.0,
         flat=model is HOMOGRAPHY,
     )
-    found = []
-    for one in (model, replace(model, solve_each=None)):
+    runs = []
+    for variant in (model, replace(model, solve_each=None)):
         drawn = uniform_samples(600, model.sample_size, np.random.default_rng(0))
         samples = chain([np.zeros(model.sample_size, dtype=int)], drawn)
-        judge = Judge(scene.p, one, 2.5, score)
-        found.append(
-            list(ransac(scene.p, one, samples, judge=judge, max_iterations=150, local_refit=refit))
+        judge = Judge(scene.p, variant, 2.5, score)
+        runs.append(
+            list(
+                ransac(
+                    scene.p, variant, samples, judge=judge, max_iterations=150, local_refit=refit
+                )
+            )
         )
-    together, apart = found
+    together, apart = runs
     assert len(together) == len(apart)
     assert together[-1].iteration > TOGETHER / 2
     assert together[1].phase == "degenerate"
@@ -46,12 +50,12 @@ def test_triangles_solved_and_judged_together_give_the_states_of_one_by_one():
     q = p @ np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]) + 0.3 + 0.01 * rng.normal(size=p.shape)
     q[:260] = rng.normal(size=(260, 3))
     pairs = np.hstack([p, q])
-    found = []
-    for one in (RIGID, replace(RIGID, solve_each=None)):
+    runs = []
+    for variant in (RIGID, replace(RIGID, solve_each=None)):
         drawn = uniform_samples(400, 3, np.random.default_rng(0))
         samples = chain([np.zeros(3, dtype=int)], drawn)
-        found.append(list(ransac(pairs, one, samples, judge=Judge(pairs, one, 0.05))))
-    together, apart = found
+        runs.append(list(ransac(pairs, variant, samples, judge=Judge(pairs, variant, 0.05))))
+    together, apart = runs
     assert len(together) == len(apart)
     assert together[-1].iteration > TOGETHER
     assert {state.phase for state in together} >= {"degenerate", "inliers", "refit"}

@@ -35,8 +35,8 @@ def views(seed: int = 0, count: int = 5, sigma: float = 0.2) -> tuple[np.ndarray
 
 
 def last_of(uv: np.ndarray, Ts: np.ndarray, **options) -> Adjustment:
-    *_, found = adjust(boards.K_TRUE, LENS, Ts, p_board=P, uv=uv, **options)
-    return found
+    *_, adjustment = adjust(boards.K_TRUE, LENS, Ts, p_board=P, uv=uv, **options)
+    return adjustment
 
 
 def test_residuals_are_projected_minus_measured():
@@ -61,8 +61,8 @@ def test_slopes_are_those_of_differences(row):
         return linearised(TRUE + x[:9], *moved, p_board=P, uv=uv)[:, 15]
 
     slope = (residuals(h) - residuals(-h)) / (2 * h)
-    found = linearised(TRUE, R, t, p_board=P, uv=uv)[:, row]
-    np.testing.assert_allclose(found, slope, atol=1e-6 * max(np.abs(slope).max(), 1.0))
+    derivative = linearised(TRUE, R, t, p_board=P, uv=uv)[:, row]
+    np.testing.assert_allclose(derivative, slope, atol=1e-6 * max(np.abs(slope).max(), 1.0))
 
 
 @pytest.mark.parametrize("coefficients", [0, 1, 2, 4, 5])
@@ -93,12 +93,12 @@ def test_it_comes_home_and_the_cost_never_rises(coefficients):
 
 def test_the_covariance_is_that_of_all_unknowns_and_of_repetition():
     Ts, uv = views(2, 4)
-    found = last_of(uv, Ts)
-    assert found.covariance is not None
+    adjustment = last_of(uv, Ts)
+    assert adjustment.covariance is not None
     block = linearised(
-        np.array([*found.K[[0, 1, 0, 1], [0, 1, 2, 2]], *found.lens]),
-        found.Ts_camera_board[:, :3, :3],
-        found.Ts_camera_board[:, :3, 3],
+        np.array([*adjustment.K[[0, 1, 0, 1], [0, 1, 2, 2]], *adjustment.lens]),
+        adjustment.Ts_camera_board[:, :3, :3],
+        adjustment.Ts_camera_board[:, :3, 3],
         p_board=P,
         uv=uv,
     )
@@ -106,16 +106,16 @@ def test_the_covariance_is_that_of_all_unknowns_and_of_repetition():
     for k in range(4):
         rows = slice(108 * k, 108 * (k + 1))
         J[rows, :9], J[rows, 9 + 6 * k : 15 + 6 * k] = block[k, :9].T, block[k, 9:15].T
-    variance = found.cost / (uv.size - 33)
+    variance = adjustment.cost / (uv.size - 33)
     dense = variance * np.linalg.inv(J.T @ J)[:9, :9]
-    np.testing.assert_allclose(found.deviations, np.sqrt(np.diag(dense)), rtol=1e-4)
+    np.testing.assert_allclose(adjustment.deviations, np.sqrt(np.diag(dense)), rtol=1e-4)
     clean = np.stack([project(P, T, boards.K_TRUE, LENS) for T in Ts])
     rng = np.random.default_rng(0)
     f = [
         last_of(clean + 0.2 * rng.standard_normal(clean.shape), Ts, tolerance=1e-6).K[0, 0]
         for _ in range(40)
     ]
-    assert np.std(f) == pytest.approx(found.deviations[0], rel=0.35)
+    assert np.std(f) == pytest.approx(adjustment.deviations[0], rel=0.35)
 
 
 def test_cauchy_is_scipys_loss_and_lets_far_corners_go():
@@ -145,18 +145,18 @@ def test_what_the_views_do_not_determine_has_no_covariance_or_a_huge_one():
         [-0.1, -0.06, 0.4],
         [-0.1, -0.06, 0.6],
     ]  # two boards, both frontal: f is anybody's guess
-    uv = np.stack([project(P, one, boards.K_TRUE) for one in T])
+    uv = np.stack([project(P, T_camera_board, boards.K_TRUE) for T_camera_board in T])
     uv += 0.2 * np.random.default_rng(0).standard_normal(uv.shape)
-    found = last_of(uv, T, coefficients=0, max_iterations=30)
-    assert not found.deviations[0] < 100
+    adjustment = last_of(uv, T, coefficients=0, max_iterations=30)
+    assert not adjustment.deviations[0] < 100
 
 
 def test_a_start_from_which_nothing_can_be_projected_stops():
     Ts, uv = views()
     Ts[:, 2, 3] = 0.0
-    found = last_of(uv, Ts, max_iterations=3)
-    assert found.stop is Stop.MAX_ITERATIONS
-    assert not found.accepted
+    adjustment = last_of(uv, Ts, max_iterations=3)
+    assert adjustment.stop is Stop.MAX_ITERATIONS
+    assert not adjustment.accepted
 
 
 # two real cameras ---------------------------------------------------------------------------------
@@ -172,39 +172,39 @@ def test_equals_opencv_on_real_cameras(real):
     cv2 = pytest.importorskip("cv2", reason="opencv-python-headless is not installed")
     _, p, uv = real
     *_, state = calibrate(p, uv, (640, 480))
-    found = state.adjustment
-    assert found is not None
+    adjustment = state.adjustment
+    assert adjustment is not None
     theirs = cv2.calibrateCameraExtended(
         [p.astype(np.float32)] * len(uv),
-        [one.astype(np.float32)[:, None] for one in uv],
+        [pixels.astype(np.float32)[:, None] for pixels in uv],
         (640, 480),
         None,
         None,
     )
-    assert np.sqrt(found.cost / (uv.size / 2)) == pytest.approx(theirs[0], abs=1e-4)
-    np.testing.assert_allclose(found.K, theirs[1], atol=1e-3)
-    np.testing.assert_allclose(found.lens, theirs[2].ravel()[:5], atol=1e-5)
-    np.testing.assert_allclose(found.deviations, theirs[5].ravel()[:9], atol=1e-3)
-    per_view = np.sqrt((found.residuals**2).sum(axis=2).mean(axis=1))
+    assert np.sqrt(adjustment.cost / (uv.size / 2)) == pytest.approx(theirs[0], abs=1e-4)
+    np.testing.assert_allclose(adjustment.K, theirs[1], atol=1e-3)
+    np.testing.assert_allclose(adjustment.lens, theirs[2].ravel()[:5], atol=1e-5)
+    np.testing.assert_allclose(adjustment.deviations, theirs[5].ravel()[:9], atol=1e-3)
+    per_view = np.sqrt((adjustment.residuals**2).sum(axis=2).mean(axis=1))
     np.testing.assert_allclose(per_view, theirs[7].ravel(), atol=1e-4)
 
 
 def test_what_is_known_of_the_real_cameras(real):
     name, p, uv = real
     states = [state for state in calibrate(p, uv, (640, 480)) if state.adjustment is not None]
-    found = states[-1].adjustment
-    assert found is not None
-    rms = np.sqrt(found.cost / (uv.size / 2))
+    adjustment = states[-1].adjustment
+    assert adjustment is not None
+    rms = np.sqrt(adjustment.cost / (uv.size / 2))
     rejected = sum(not s.adjustment.accepted for s in states if s.adjustment)
     if name == "left":
         assert rms == pytest.approx(0.40877, abs=1e-5)
-        assert dict(zip(SHARED, found.deviations, strict=True))["fx"] == pytest.approx(
+        assert dict(zip(SHARED, adjustment.deviations, strict=True))["fx"] == pytest.approx(
             0.93, abs=0.01
         )
-        assert found.K[0, 0] == pytest.approx(
+        assert adjustment.K[0, 0] == pytest.approx(
             535.9, abs=0.5
         )  # left_intrinsics.yml, which has fx = fy
-        np.testing.assert_allclose(found.K[:2, 2], [342.3, 235.6], atol=0.3)
+        np.testing.assert_allclose(adjustment.K[:2, 2], [342.3, 235.6], atol=0.3)
     else:
         assert rms == pytest.approx(0.4587, abs=1e-4)
         assert rejected == 3

@@ -27,12 +27,12 @@ def test_deviations_are_unknown_until_the_end_and_zero_for_what_is_fixed():
 def test_it_ends_at_rest_unless_told_otherwise():
     Ts, uv = views(3)
     start = boards.K_TRUE * np.array([[1.2, 1.0, 1.0], [1.0, 1.2, 1.0], [1.0, 1.0, 1.0]])
-    *_, found = adjust(start, LENS, Ts, p_board=P, uv=uv)
+    *_, adjustment = adjust(start, LENS, Ts, p_board=P, uv=uv)
     *_, finer = adjust(start, LENS, Ts, p_board=P, uv=uv, tolerance=1e-15)
     *_, coarse = adjust(start, LENS, Ts, p_board=P, uv=uv, tolerance=0.5)
-    assert found.cost == pytest.approx(finer.cost, rel=1e-7)
-    np.testing.assert_allclose(found.K, finer.K, atol=1e-4)
-    assert coarse.cost > found.cost * (1 + 1e-5)
+    assert adjustment.cost == pytest.approx(finer.cost, rel=1e-7)
+    np.testing.assert_allclose(adjustment.K, finer.K, atol=1e-4)
+    assert coarse.cost > adjustment.cost * (1 + 1e-5)
 
 
 def test_information_of_what_is_shared_is_what_the_poses_leave():
@@ -46,6 +46,6 @@ def test_information_of_what_is_shared_is_what_the_poses_leave():
         whole += slopes @ slopes.T
     poses = whole[6:, 6:]
     expected = whole[:6, :6] - whole[:6, 6:] @ np.linalg.solve(poses, whole[6:, :6])
-    found = shared_information(block, free)
-    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
+    information = shared_information(block, free)
+    np.testing.assert_allclose(information, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
     assert last_of(uv, Ts, coefficients=2).covariance is not None

@@ -67,8 +67,8 @@ def test_a_refit_goes_down_from_its_start_and_without_one_from_sqpnp():
 def values(state: State) -> list[Any]:
     """What a state and its fits hold."""
     held = (state, *(fit for fit in (state.trial, state.best) if fit))
-    names = [(one, field.name) for one in held for field in fields(one)]
-    return [getattr(one, name) for one, name in names if name not in ("trial", "best")]
+    names = [(holder, field.name) for holder in held for field in fields(holder)]
+    return [getattr(holder, name) for holder, name in names if name not in ("trial", "best")]
 
 
 def alike(state: State, other: State) -> bool:
@@ -88,15 +88,19 @@ def test_many_samples_solved_together_give_the_states_of_one_by_one(seed, outlie
         0.3,
     ]  # samples of three of these are degenerate
     model = camera_model(K)
-    found = []
-    for one in (model, replace(model, solve_each=None)):
+    runs = []
+    for variant in (model, replace(model, solve_each=None)):
         chosen = [np.array([0, 1, 2]), np.array([50, 60, 70]), np.array([50, 60, 70])]
         drawn = uniform_samples(len(table), 3, np.random.default_rng(seed))
         samples = iter([*chosen, *islice(drawn, 600)])
-        found.append(
-            list(ransac(table, one, samples, judge=Judge(table, one, 3.0), max_iterations=most))
+        runs.append(
+            list(
+                ransac(
+                    table, variant, samples, judge=Judge(table, variant, 3.0), max_iterations=most
+                )
+            )
         )
-    together, apart = found
+    together, apart = runs
     assert len(together) == len(apart) > 40
     assert together[1].phase == "degenerate"
     assert all(alike(a, b) for a, b in zip(together, apart, strict=True))

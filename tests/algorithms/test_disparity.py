@@ -86,8 +86,8 @@ def test_the_winner_is_the_first_of_the_lowest(seed, n, dtype):
 
 def test_the_winners_go_on_from_slice_to_slice():
     cost = np.random.default_rng(0).integers(0, 9, (7, 5, 6))
-    found = [winner.copy() for winner in winners(cost)]
-    assert np.array_equal(found, [cost[: n + 1].argmin(0) for n in range(7)])
+    disparities = [winner.copy() for winner in winners(cost)]
+    assert np.array_equal(disparities, [cost[: n + 1].argmin(0) for n in range(7)])
 
 
 @pytest.mark.parametrize("n", [256, 257, 300])
@@ -269,8 +269,8 @@ def test_cones(shared_data):
     )
     d_left, d_right = (read_image(folder / name) / 4.0 for name in ("disp2.pgm", "disp6.pgm"))
     partner = np.rint(np.arange(450) - d_left).astype(int)
-    there = np.take_along_axis(d_right, np.clip(partner, 0, 449), axis=1)
-    both_see = (d_left > 0) & (partner >= 0) & (there > 0) & (np.abs(there - d_left) <= 1)
+    d_partner = np.take_along_axis(d_right, np.clip(partner, 0, 449), axis=1)
+    both_see = (d_left > 0) & (partner >= 0) & (d_partner > 0) & (np.abs(d_partner - d_left) <= 1)
     assert 0.84 < both_see.mean() < 0.86
     disparity, matched = disparity_map(left, right, 63)
     assert bad(disparity, d_left, both_see) < 0.036  # 3.5 %; the promise is 4.2 %
@@ -288,16 +288,16 @@ def test_motorcycle():
     depth = depth_from_disparity(disparity + pair.camera.doffs, pair.camera.f, pair.camera.baseline)
     depth[~matched] = np.nan
     floor, panel = (slice(340, 498), slice(2, 740)), (slice(12, 90), slice(185, 272))
-    found, true = (
+    measured, true = (
         angle(known, pair.camera, floor, two=panel) for known in (depth, true_depth(pair))
     )
-    assert found == pytest.approx(90, abs=2)
-    assert found == pytest.approx(true, abs=0.5)  # 88.2 and 88.1 degrees
+    assert measured == pytest.approx(90, abs=2)
+    assert measured == pytest.approx(true, abs=0.5)  # 88.2 and 88.1 degrees
 
 
-def angle(depth, camera, one, *, two):
+def angle(depth, camera, first, *, two):
     """Return the angle between the planes in two parts of a picture, degrees."""
-    n_one, n_two = (plane_normal(depth, camera, part[0], columns=part[1]) for part in (one, two))
+    n_one, n_two = (plane_normal(depth, camera, part[0], columns=part[1]) for part in (first, two))
     return float(np.degrees(np.arccos(np.abs(np.dot(n_one, n_two)))))
 
 

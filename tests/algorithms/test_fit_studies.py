@@ -56,34 +56,34 @@ def test_without_a_covariance_nothing_is_repeated():
 def test_starts_are_shown_when_asked_and_at_the_end():
     p = arc_points(6.28, 40)
     starts = np.column_stack([np.linspace(-3, 3, 7), np.zeros(7), np.ones(7)])
-    found = list(try_starts(p, starts, np.array([0.0, 0.0, 1.0]), damping=1e-3, shown=(0, 2, 50)))
-    assert [basin.now.iteration for basin in found[:2]] == [0, 2]
-    assert found[-1].now.done.all()
-    np.testing.assert_allclose(found[-1].now.unknowns, np.tile([0, 0, 1], (7, 1)), atol=1e-6)
-    assert found[-1].share("comes home") == 1.0
-    assert found[0].share("under way") == 6 / 7  # one of them begins at home
+    basins = list(try_starts(p, starts, np.array([0.0, 0.0, 1.0]), damping=1e-3, shown=(0, 2, 50)))
+    assert [basin.now.iteration for basin in basins[:2]] == [0, 2]
+    assert basins[-1].now.done.all()
+    np.testing.assert_allclose(basins[-1].now.unknowns, np.tile([0, 0, 1], (7, 1)), atol=1e-6)
+    assert basins[-1].share("comes home") == 1.0
+    assert basins[0].share("under way") == 6 / 7  # one of them begins at home
 
 
 def test_fates_are_told_by_the_circle_and_not_by_the_sign_of_its_radius():
     ends = np.array([[0, 0, -1], [0, 0, 1.5], [300, 0, 299], [2, 0, 1.0]])
-    now = Descents(5, ends, np.zeros(4), np.array([True, True, False, False]))
-    found = Basin(ends, np.array([0, 0, 1.0]), now)
-    assert [FATES[k] for k in found.fates] == [
+    descents = Descents(5, ends, np.zeros(4), np.array([True, True, False, False]))
+    basin = Basin(ends, np.array([0, 0, 1.0]), descents)
+    assert [FATES[k] for k in basin.fates] == [
         "comes home",
         "away or lost",
         "away or lost",
         "under way",
     ]
-    assert found.share("away or lost") == 0.5
+    assert basin.share("away or lost") == 0.5
 
 
 def test_circles_come_one_by_one_and_medians_arc_by_arc():
     p = arc_points(1.0, 30)
-    found = list(compare_circles(p, iter([(90.0, p[None]), (45.0, p[None])])))
-    assert [len(now.circles) for now in found] == [1, 2, 3, 4, 5, 5, 5]
-    assert found[-1].arcs == (90.0, 45.0)
-    np.testing.assert_allclose(found[-1].medians, 1.0, atol=1e-6)
-    assert found[0].circles is not found[1].circles
+    states = list(compare_circles(p, iter([(90.0, p[None]), (45.0, p[None])])))
+    assert [len(state.circles) for state in states] == [1, 2, 3, 4, 5, 5, 5]
+    assert states[-1].arcs == (90.0, 45.0)
+    np.testing.assert_allclose(states[-1].medians, 1.0, atol=1e-6)
+    assert states[0].circles is not states[1].circles
 
 
 def test_regression_is_too_flat_by_the_formula_and_perpendicular_distances_are_not():

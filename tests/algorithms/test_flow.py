@@ -133,11 +133,11 @@ def test_a_moved_scene_flows_the_same_way(name):
     distance, gradient = BOTH[name]
     v = np.array([3.0, -1.0, 2.0])
     here = [state.p_moving for state in flow(p_a, p_b, distance, gradient=gradient, max_steps=10)]
-    there = [
+    moved = [
         state.p_moving
         for state in flow(p_a + v, p_b + v, distance, gradient=gradient, max_steps=10)
     ]
-    np.testing.assert_allclose(np.array(there) - v, np.array(here), atol=1e-9)
+    np.testing.assert_allclose(np.array(moved) - v, np.array(here), atol=1e-9)
 
 
 @pytest.mark.parametrize("name", BOTH)

@@ -134,7 +134,7 @@ class TestLaws:
             turned(d, a, rng.uniform(-5, 5, 3)) for d, a in ((50, (1, 0, 0)), (-70, (0, 1, 0)))
         )
         n = point_normals(scans.p_target) if plane else None
-        one = list(icp(scans.p_target, scans.p_source, n_target=n, max_iterations=8))
+        states = list(icp(scans.p_target, scans.p_source, n_target=n, max_iterations=8))
         two = list(
             icp(
                 apply(T_new_target, scans.p_target),
@@ -144,7 +144,7 @@ class TestLaws:
                 max_iterations=8,
             )
         )
-        for a, b in zip(one, two, strict=True):
+        for a, b in zip(states, two, strict=True):
             np.testing.assert_array_equal(a.indices, b.indices)
             np.testing.assert_allclose(
                 T_new_target @ a.T_target_source @ inverse(T_new_source),

@@ -23,19 +23,19 @@ def symmetric(seed: int, n: int = 3) -> np.ndarray:
 @given(MATRICES)
 def test_every_rotation_takes_one_entry_and_twice_its_square(drawn):
     C = symmetric(*drawn)
-    for before, now in itertools.pairwise(jacobi(C)):
-        i, j = now.plane or (0, 0)
+    for before, after in itertools.pairwise(jacobi(C)):
+        i, j = after.plane or (0, 0)
         aside = np.abs(before.A - np.diag(np.diag(before.A)))
         assert aside[i, j] == pytest.approx(aside.max())
-        assert abs(now.A[i, j]) < 1e-12 * np.linalg.norm(C)
-        assert abs(now.angle) <= np.pi / 4 + 1e-12
+        assert abs(after.A[i, j]) < 1e-12 * np.linalg.norm(C)
+        assert abs(after.angle) <= np.pi / 4 + 1e-12
         norm = float(np.linalg.norm(C))
-        assert (now.off * norm) ** 2 == pytest.approx(
+        assert (after.off * norm) ** 2 == pytest.approx(
             (before.off * norm) ** 2 - 2 * before.A[i, j] ** 2, abs=1e-10 * norm**2
         )
-        np.testing.assert_allclose(now.V.T @ C @ now.V, now.A, atol=1e-11 * norm)
-        np.testing.assert_allclose(now.V.T @ now.V, np.eye(len(C)), atol=1e-12)
-        assert np.linalg.det(now.V) == pytest.approx(1)
+        np.testing.assert_allclose(after.V.T @ C @ after.V, after.A, atol=1e-11 * norm)
+        np.testing.assert_allclose(after.V.T @ after.V, np.eye(len(C)), atol=1e-12)
+        assert np.linalg.det(after.V) == pytest.approx(1)
 
 
 @settings(max_examples=30, deadline=None)

@@ -48,13 +48,13 @@ def moments(p: np.ndarray, start: np.ndarray, damping: float = 1e-3, **more):
 @given(seed=seeds)
 def test_damped_the_sum_never_rises_and_every_ending_says_why(seed):
     rng = np.random.default_rng(seed)
-    found = moments(
+    states = moments(
         an_arc(seed, rng.uniform(20, 360)), np.append(rng.uniform(-4, 4, 2), rng.uniform(0.1, 3))
     )
-    assert (np.diff([now.cost for now in found]) <= 0).all()
-    assert found[-1].stop is not None
-    assert found[-1].stop.message
-    assert all(now.stop is None for now in found[:-1])
+    assert (np.diff([state.cost for state in states]) <= 0).all()
+    assert states[-1].stop is not None
+    assert states[-1].stop.message
+    assert all(state.stop is None for state in states[:-1])
 
 
 @settings(max_examples=25, deadline=None)
@@ -109,15 +109,15 @@ def test_the_escape_costs_what_the_best_straight_line_costs():
 
 
 def test_undamped_every_step_is_kept():
-    found = moments(an_arc(3), BEYOND, 0.0)
-    assert "rejected" not in {now.phase for now in found if now.stop is None}
-    radii = [now.unknown[2] for now in found if now.phase == "accepted"]
+    states = moments(an_arc(3), BEYOND, 0.0)
+    assert "rejected" not in {state.phase for state in states if state.stop is None}
+    radii = [state.unknown[2] for state in states if state.phase == "accepted"]
     np.testing.assert_allclose(radii[:2], [7.0, 72.4], rtol=2e-3)
 
 
 def test_what_was_promised_is_the_linear_problems_sum():
     p = an_arc(3)
-    tried = next(now for now in moments(p, HOME) if now.phase == "tried")
+    tried = next(state for state in moments(p, HOME) if state.phase == "tried")
     assert tried.step is not None
     along = along_step(tried, lambda c: linearise_sphere(c, p), np.add, shares=np.array([0.0, 1.0]))
     np.testing.assert_allclose(along.costs, [tried.before, tried.trial_cost])
@@ -135,15 +135,15 @@ def test_a_way_has_every_step_kept_and_every_one_taken_back():
     def linearise(c):
         return linearise_sphere(c, p)
 
-    found = moments(p, np.array([0.9, 0.6, 0.3]))
-    walked = list(with_its_way(iter(found), linearise, np.add, shares=np.linspace(0, 1, 3)))
-    assert [one.now for one in walked] == found
-    kept = [now.unknown for now in found if now.phase in ("start", "accepted")]
-    back = [now.trial for now in found if now.phase == "rejected"]
+    states = moments(p, np.array([0.9, 0.6, 0.3]))
+    walked = list(with_its_way(iter(states), linearise, np.add, shares=np.linspace(0, 1, 3)))
+    assert [moment.now for moment in walked] == states
+    kept = [state.unknown for state in states if state.phase in ("start", "accepted")]
+    back = [state.trial for state in states if state.phase == "rejected"]
     assert len(back) > 0
     np.testing.assert_array_equal(walked[-1].kept, kept)
     np.testing.assert_array_equal(walked[-1].taken_back, back)
-    assert all((one.along is not None) == (one.now.phase == "tried") for one in walked)
+    assert all((moment.along is not None) == (moment.now.phase == "tried") for moment in walked)
     assert walked[0].taken_back.shape == (0, 3)
 
 
@@ -179,9 +179,9 @@ def test_many_go_as_each_alone(damping):
     starts = np.column_stack([rng.uniform(-0.6, 0.6, (6, 2)), rng.uniform(0.5, 1.5, 6)])
     *_, many = descend_many(lambda c: linearise_sphere(c, p), np.add, starts, damping=damping)
     assert many.done.all()
-    for start, found, cost in zip(starts, many.unknowns, many.costs, strict=True):
+    for start, unknown, cost in zip(starts, many.unknowns, many.costs, strict=True):
         alone = moments(p, start, damping)[-1]
-        np.testing.assert_allclose(found, alone.unknown, atol=1e-6)
+        np.testing.assert_allclose(unknown, alone.unknown, atol=1e-6)
         assert cost == pytest.approx(alone.cost)
 
 
@@ -209,8 +209,8 @@ def test_the_covariance_is_that_of_repetition_where_all_it_takes_for_granted_hol
         lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1))
     )
     _, jacobian = linearise_sphere(np.array([0.0, 0.0, 1.0]), places)
-    found = 0.02**2 * np.linalg.inv(jacobian.T @ jacobian)
-    np.testing.assert_allclose(np.cov(fits.unknowns.T), found, atol=0.08 * found.max())
+    predicted = 0.02**2 * np.linalg.inv(jacobian.T @ jacobian)
+    np.testing.assert_allclose(np.cov(fits.unknowns.T), predicted, atol=0.08 * predicted.max())
 
 
 def test_n_less_k_and_not_n():

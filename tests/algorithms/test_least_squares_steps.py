@@ -10,9 +10,9 @@ def test_each_step_solves_the_system_with_its_diagonal_raised():
     J = rng.normal(size=(5, 12, 3)) * [1.0, 50.0, 0.01]
     r = rng.normal(size=(5, 12))
     dampings = np.array([0.0, 1e-3, 0.1, 1.0, 30.0])
-    for found, one, residual, damping in zip(
+    for step, jacobian, residual, damping in zip(
         _damped_steps(r, J, dampings), J, r, dampings, strict=True
     ):
-        normal = one.T @ one
+        normal = jacobian.T @ jacobian
         damped = normal + damping * np.diag(np.diag(normal))
-        np.testing.assert_allclose(found, -np.linalg.solve(damped, one.T @ residual), rtol=1e-8)
+        np.testing.assert_allclose(step, -np.linalg.solve(damped, jacobian.T @ residual), rtol=1e-8)

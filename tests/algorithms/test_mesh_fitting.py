@@ -64,7 +64,7 @@ def test_points_lie_where_the_shares_of_the_corners_say():
 
 def test_a_ball_becomes_an_ellipsoid_and_a_laplacian_shrinks_it():
     def end(laplacian: float = 0.0):
-        found = list(
+        states = list(
             fit_mesh(
                 BALL.p,
                 BALL.faces,
@@ -75,9 +75,9 @@ def test_a_ball_becomes_an_ellipsoid_and_a_laplacian_shrinks_it():
                 rng=np.random.default_rng(4),
             )
         )
-        np.testing.assert_array_equal(found[0].p, BALL.p)
-        assert found[-1].to_given == found[-1].to_truth
-        return found[-1]
+        np.testing.assert_array_equal(states[0].p, BALL.p)
+        assert states[-1].to_given == states[-1].to_truth
+        return states[-1]
 
     free = end()
     smooth = end(laplacian=50.0)

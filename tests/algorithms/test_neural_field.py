@@ -69,7 +69,7 @@ def test_a_layer_is_its_formula_and_the_input_has_its_waves():
 def test_the_loss_falls_and_states_stay_as_they_were():
     p, y = samples(3000)
     rng = np.random.default_rng(3)
-    found = list(
+    states = list(
         train_field(
             new_network(16, 1, "tanh", rng=rng),
             p,
@@ -79,11 +79,11 @@ def test_the_loss_falls_and_states_stay_as_they_were():
             rng=rng,
         )
     )
-    losses = [one.loss for one in found]
+    losses = [state.loss for state in states]
     assert losses == sorted(losses, reverse=True)
     assert losses[-1] < 0.05 * losses[0]
-    assert [one.iterations for one in found] == [0, 20, 100, 300]
-    errors = [float(((one.network(p) - y) ** 2).mean()) for one in found]
+    assert [state.iterations for state in states] == [0, 20, 100, 300]
+    errors = [float(((state.network(p) - y) ** 2).mean()) for state in states]
     assert errors == sorted(errors, reverse=True)
 
 

@@ -41,21 +41,21 @@ def test_no_cell_that_the_surface_crosses_is_left_out():
 
 
 def test_the_surface_takes_four_times_the_cells_at_each_level():
-    found = levels(7)
-    mixed = np.array([int(level.mixed.sum()) for level in found])
+    tree = levels(7)
+    mixed = np.array([int(level.mixed.sum()) for level in tree])
     assert mixed[5:].tolist() == [2688, 10_744, 42_552]
     np.testing.assert_allclose(mixed[5:] / mixed[4:-1], 4, rtol=0.02)
-    assert len(found[5].cells) == 8 * mixed[4] == 5376
+    assert len(tree[5].cells) == 8 * mixed[4] == 5376
 
 
 def test_bytes():
-    found = levels(7)
-    assert [level.packed_bytes for level in found[3:]] == [82, 402, 1746, 7122, 28_610]
-    assert [level.dense_bytes for level in found[3:]] == [64, 512, 4096, 32_768, 262_144]
+    tree = levels(7)
+    assert [level.packed_bytes for level in tree[3:]] == [82, 402, 1746, 7122, 28_610]
+    assert [level.dense_bytes for level in tree[3:]] == [64, 512, 4096, 32_768, 262_144]
     assert (
-        found[5].pointer_bytes
+        tree[5].pointer_bytes
         == POINTER_BYTES * 873
-        == pytest.approx(15 * found[5].dense_bytes, rel=0.03)
+        == pytest.approx(15 * tree[5].dense_bytes, rel=0.03)
     )
 
 

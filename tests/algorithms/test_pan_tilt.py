@@ -24,19 +24,19 @@ def test_the_pan_rate_is_speed_over_the_distance_from_the_axis(miss, pan):
 
 
 def test_both_axes_together_turn_the_line_of_sight():
-    for now in follow(
+    for state in follow(
         np.array([1.0, 3.0, 8.0]),
         np.array([4.0, -2.0, 1.0]),
         np.linspace(-1, 1, 7),
         spherical_from_cartesian=spherical_from_cartesian,
     ):
-        both = np.hypot(now.pan_rate * np.cos(now.tilt), now.tilt_rate)
-        assert both == pytest.approx(now.sight_rate, rel=1e-6)
-        assert now.off < 1e-12
+        both = np.hypot(state.pan_rate * np.cos(state.tilt), state.tilt_rate)
+        assert both == pytest.approx(state.sight_rate, rel=1e-6)
+        assert state.off < 1e-12
 
 
 def test_a_pan_across_half_a_turn_is_no_jump():
-    found = list(
+    states = list(
         follow(
             np.array([-5.0, 0.0, 3.0]),
             np.array([0.0, 1.0, 0.0]),
@@ -44,8 +44,8 @@ def test_a_pan_across_half_a_turn_is_no_jump():
             spherical_from_cartesian=spherical_from_cartesian,
         )
     )
-    assert np.ptp([now.pan for now in found]) > 6
-    assert max(abs(now.pan_rate) for now in found) < 0.21
+    assert np.ptp([state.pan for state in states]) > 6
+    assert max(abs(state.pan_rate) for state in states) < 0.21
 
 
 def test_a_wrong_azimuth_looks_past_the_target():
@@ -54,9 +54,9 @@ def test_a_wrong_azimuth_looks_past_the_target():
         c[:, 2] = np.arctan(p[:, 1] / p[:, 0])
         return c
 
-    found = list(
+    states = list(
         follow(
             np.array([0.0, 5.0, 5.0]), V, np.array([-0.5, 0.5]), spherical_from_cartesian=by_arctan
         )
     )
-    assert [now.off > 0.5 for now in found] == [True, False]
+    assert [state.off > 0.5 for state in states] == [True, False]

@@ -14,14 +14,14 @@ def test_three_coordinates_lead_from_the_origin_to_the_point(name):
     system = SYSTEMS[name]
     p = np.array([0.4, -0.7, 0.3])
     c = system.of_points(p[None])[0]
-    found = list(place(c, system, 3))
-    assert len(found) == 10
-    np.testing.assert_array_equal(found[0].p, 0)
-    np.testing.assert_allclose(found[-1].p, p)
-    np.testing.assert_allclose(found[-1].c, c)
-    for before, now in itertools.pairwise(found):
-        assert (before.c != now.c).sum() == 1
-        np.testing.assert_array_equal(now.path[: len(before.path)], before.path)
+    states = list(place(c, system, 3))
+    assert len(states) == 10
+    np.testing.assert_array_equal(states[0].p, 0)
+    np.testing.assert_allclose(states[-1].p, p)
+    np.testing.assert_allclose(states[-1].c, c)
+    for before, after in itertools.pairwise(states):
+        assert (before.c != after.c).sum() == 1
+        np.testing.assert_array_equal(after.path[: len(before.path)], before.path)
 
 
 def test_a_walk_past_the_axis_turns_the_azimuth_and_puts_points_back():

@@ -97,9 +97,9 @@ def test_left_and_right_are_told_apart_and_states_stay_as_they_were():
         )
 
     clouds, of = draw(40)
-    found = list(
+    states = list(
         train_classifier("max", draw, {"new": clouds}, classes=2, counts=(0, 10, 60), rng=rng)
     )
-    assert (found[-1].scores["new"].argmax(axis=1) == of).mean() > 0.95
-    assert found[-1].loss < 0.5 * found[0].loss
-    np.testing.assert_array_equal(found[1].network(clouds), found[1].scores["new"])
+    assert (states[-1].scores["new"].argmax(axis=1) == of).mean() > 0.95
+    assert states[-1].loss < 0.5 * states[0].loss
+    np.testing.assert_array_equal(states[1].network(clouds), states[1].scores["new"])

@@ -42,12 +42,12 @@ def test_the_end_is_the_best_similarity_and_the_step_before_the_best_motion(
         + T[:3, 3]
         + noise * cloud(seed + 1)
     )
-    found = steps(q, p)
-    np.testing.assert_allclose(found["scale"].T_target_source, align_similarity(q, p), atol=1e-8)
-    np.testing.assert_allclose(found["flip"].T_target_source, align_rigid(q, p), atol=1e-8)
-    for state in found.values():
+    states = steps(q, p)
+    np.testing.assert_allclose(states["scale"].T_target_source, align_similarity(q, p), atol=1e-8)
+    np.testing.assert_allclose(states["flip"].T_target_source, align_rigid(q, p), atol=1e-8)
+    for state in states.values():
         assert state.rmse == pytest.approx(rmse(state.T_target_source, q, p))
-    assert found["scale"].rmse <= found["flip"].rmse + 1e-12
+    assert states["scale"].rmse <= states["flip"].rmse + 1e-12
 
 
 @settings(max_examples=15, deadline=None)
@@ -56,7 +56,7 @@ def test_what_a_flip_costs_is_told_by_the_singular_values(seed, mirrored):
     p = cloud(seed)
     q = cloud(seed) * [1, 1, -1 if mirrored else 1] + 0.1 * cloud(seed + 7)
     a, b = p - p.mean(0), q - q.mean(0)
-    found = {}
+    errors = {}
     for flip in FLIPPED:
         state = steps(p, q, flip)["flip"]
         D, S = state.D, state.S
@@ -64,21 +64,21 @@ def test_what_a_flip_costs_is_told_by_the_singular_values(seed, mirrored):
         assert S is not None
         expected = (a**2).sum(1).mean() + (b**2).sum(1).mean() - 2 * D @ S
         assert state.rmse**2 == pytest.approx(expected)
-        found[flip] = state.rmse
+        errors[flip] = state.rmse
         handed = np.linalg.det(state.T_target_source[:3, :3])
         assert handed == pytest.approx(-1 if flip == "none" and state.mirror else 1)
-    assert found["least"] <= found["middle"] <= found["largest"] <= found["whole"] + 1e-12
+    assert errors["least"] <= errors["middle"] <= errors["largest"] <= errors["whole"] + 1e-12
 
 
 def test_v_turns_in_and_u_turns_out():
     p = cloud(1)
     R = scipy.spatial.transform.Rotation.from_rotvec([0.3, -1.0, 0.7]).as_matrix()
-    found = steps(p @ R.T, p)
-    turned_in = found["in"].T_target_source[:3, :3]
+    states = steps(p @ R.T, p)
+    turned_in = states["in"].T_target_source[:3, :3]
     assert np.linalg.det(turned_in) == pytest.approx(1)
-    np.testing.assert_allclose(turned_in @ found["in"].V, np.eye(3), atol=1e-12)
-    np.testing.assert_allclose(found["out"].T_target_source[:3, :3], R, atol=1e-12)
-    assert found["out"].mirror is False
+    np.testing.assert_allclose(turned_in @ states["in"].V, np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(states["out"].T_target_source[:3, :3], R, atol=1e-12)
+    assert states["out"].mirror is False
 
 
 def test_two_libraries_call_a_mirror_image_a_perfect_fit():

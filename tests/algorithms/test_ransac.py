@@ -148,8 +148,8 @@ def test_the_order_of_the_parts_and_what_they_hold():
         "best": {"sample", "refit"},
         "refit": {"refit", "stop"},
     }
-    for one, two in pairwise(states):
-        assert two.phase in follows[one.phase]
+    for first, second in pairwise(states):
+        assert second.phase in follows[first.phase]
     assert all((state.stop is None) == (state.phase != "stop") for state in states)
     assert all(
         state.iteration == len([s for s in states[: k + 1] if s.phase == "sample"])
@@ -312,10 +312,10 @@ def test_its_lines_can_be_watched():
     samples = uniform_samples(len(scene.p), 2, np.random.default_rng(0))
     with listening() as moment:
         for state in ransac(scene.p, LINE, samples, judge=Judge(scene.p, LINE, 0.03)):
-            now = moment()
-            assert now is not None
-            lines, first = now.source
-            statement = lines[now.line - first :][:2]  # a long one begins on a line of its own
+            last = moment()
+            assert last is not None
+            lines, first = last.source
+            statement = lines[last.line - first :][:2]  # a long one begins on a line of its own
             assert f'"{state.phase}"' in "".join(statement)
     assert {CIRCLE.sample_size, SPHERE.sample_size, FUNDAMENTAL.sample_size} == {3, 4, 7}
 

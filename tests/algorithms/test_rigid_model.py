@@ -22,15 +22,15 @@ def test_three_exact_matches_give_the_motion(seed):
     T = a_motion(rng)
     p = rng.normal(size=(3, 3))
     pairs = np.hstack([p, apply(T, p)])
-    (found,) = RIGID.solve(pairs[None])
-    np.testing.assert_allclose(RIGID.distances(found, pairs), 0, atol=1e-9)
-    np.testing.assert_allclose(RIGID.refit(pairs), found, atol=1e-6)
+    (T_target_source,) = RIGID.solve(pairs[None])
+    np.testing.assert_allclose(RIGID.distances(T_target_source, pairs), 0, atol=1e-9)
+    np.testing.assert_allclose(RIGID.refit(pairs), T_target_source, atol=1e-6)
     noisy = np.stack([pairs + 0.01 * rng.normal(size=pairs.shape) for _ in range(4)])
     several = RIGID.solve(noisy)
     assert len(several) <= len(noisy)
     if len(several) == len(noisy):
         np.testing.assert_allclose(
-            several, [align_rigid(one[:, 3:], one[:, :3]) for one in noisy], atol=1e-7
+            several, [align_rigid(sample[:, 3:], sample[:, :3]) for sample in noisy], atol=1e-7
         )
 
 
@@ -42,16 +42,16 @@ def test_moving_both_sides_moves_the_answer(seed):
     B = a_motion(rng)
     p = rng.normal(size=(3, 3))
     q = apply(T, p) + 0.01 * rng.normal(size=(3, 3))
-    (found,) = RIGID.solve(np.hstack([p, q])[None])
+    (T_target_source,) = RIGID.solve(np.hstack([p, q])[None])
     (again,) = RIGID.solve(np.hstack([apply(A, p), apply(B, q)])[None])
-    np.testing.assert_allclose(again, B @ found @ inverse(A), atol=1e-8)
+    np.testing.assert_allclose(again, B @ T_target_source @ inverse(A), atol=1e-8)
 
 
 def test_triangles_of_different_sides_are_dropped():
     p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
     samples = np.stack([np.hstack([p, q]) for q in (p, 1.2 * p, p[:, ::-1], 0 * p, p * [1, -1, 1])])
-    found = RIGID.solve(samples)
-    assert found.shape == (
+    motions = RIGID.solve(samples)
+    assert motions.shape == (
         3,
         4,
         4,

@@ -20,15 +20,15 @@ from workbench.algorithms.robust.models import LINE, PLANE, rms_distance
 def test_a_cascade_goes_on_from_where_the_loss_before_ended():
     scene = plane_scene(np.random.default_rng(3), count=300, outlier_ratio=0.45, sigma=0.01)
     huber, tukey = LOSSES["Huber"], LOSSES["Tukey"]
-    found = list(
+    rounds = list(
         cascade(scene.p, PLANE, [(huber, 0.02), (tukey, 0.05)], max_iterations=60, tolerance=1e-3)
     )
     alone = list(
         reweighted_fit(scene.p, PLANE, huber, corner=0.02, max_iterations=60, tolerance=1e-3)
     )
-    split = sum(now.loss is huber for now in found)
+    split = sum(trusted.loss is huber for trusted in rounds)
     assert split == len(alone)
-    np.testing.assert_array_equal(found[split - 1].now.estimate, alone[-1].estimate)
+    np.testing.assert_array_equal(rounds[split - 1].now.estimate, alone[-1].estimate)
     then = list(
         reweighted_fit(
             scene.p,
@@ -40,10 +40,12 @@ def test_a_cascade_goes_on_from_where_the_loss_before_ended():
             tolerance=1e-3,
         )
     )
-    assert [now.now.iteration for now in found[split:]] == [state.iteration for state in then[1:]]
-    np.testing.assert_array_equal(found[-1].now.estimate, then[-1].estimate)
-    assert [now.last for now in found] == [False] * (len(found) - 1) + [True]
-    assert all(np.array_equal(now.first, alone[0].estimate) for now in found)
+    assert [trusted.now.iteration for trusted in rounds[split:]] == [
+        state.iteration for state in then[1:]
+    ]
+    np.testing.assert_array_equal(rounds[-1].now.estimate, then[-1].estimate)
+    assert [trusted.last for trusted in rounds] == [False] * (len(rounds) - 1) + [True]
+    assert all(np.array_equal(trusted.first, alone[0].estimate) for trusted in rounds)
 
 
 @settings(max_examples=50, deadline=None)

@@ -39,7 +39,7 @@ def test_gradients_are_those_of_differences(monkeypatch, name, d, *, compared):
 @pytest.mark.parametrize("compared", ["numbers", "matrix"])
 def test_small_turns_are_learned_and_states_stay_as_they_were(compared):
     R_test, _ = random_rotations(100, 2, 1.0, rng=np.random.default_rng(3))
-    found = list(
+    states = list(
         regress(
             IN_PLANE["cosine and sine"],
             R_test,
@@ -51,7 +51,7 @@ def test_small_turns_are_learned_and_states_stay_as_they_were(compared):
             rng=np.random.default_rng(4),
         )
     )
-    assert [one.updates for one in found] == [0, 50, 200]
-    assert found[0].errors.mean() > 10 > 4 > found[-1].errors.mean()
-    assert found[-1].loss < 0.1 * found[0].loss
-    np.testing.assert_allclose(IN_PLANE["cosine and sine"].decode(found[1].outputs), found[1].R)
+    assert [state.updates for state in states] == [0, 50, 200]
+    assert states[0].errors.mean() > 10 > 4 > states[-1].errors.mean()
+    assert states[-1].loss < 0.1 * states[0].loss
+    np.testing.assert_allclose(IN_PLANE["cosine and sine"].decode(states[1].outputs), states[1].R)

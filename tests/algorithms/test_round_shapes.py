@@ -28,20 +28,20 @@ PLACES = {"circle": arc_points, "sphere": cap_points, "cylinder": pipe_points}
 @pytest.mark.parametrize("shape", ROUND_SHAPES.values(), ids=ROUND_SHAPES)
 def test_exact_points_give_the_unit_shape(shape):
     p = PLACES[shape.name](np.radians(200), 80)
-    found = fit_round(shape, p[None], STARTS[shape.name][None], tolerance=1e-14)[0]
-    np.testing.assert_allclose(distances(shape.name, found, p), 0, atol=1e-6)
-    assert found[-1] == pytest.approx(1.0, abs=1e-6)
-    assert len(shape.names) == shape.linearise(found, p)[1].shape[1]
+    fitted = fit_round(shape, p[None], STARTS[shape.name][None], tolerance=1e-14)[0]
+    np.testing.assert_allclose(distances(shape.name, fitted, p), 0, atol=1e-6)
+    assert fitted[-1] == pytest.approx(1.0, abs=1e-6)
+    assert len(shape.names) == shape.linearise(fitted, p)[1].shape[1]
 
 
 @pytest.mark.parametrize("shape", ROUND_SHAPES.values(), ids=ROUND_SHAPES)
 def test_feet_and_outlines_lie_on_the_shape(shape):
     unknown = STARTS[shape.name]
     p = np.random.default_rng(0).normal(size=(40, 2 if shape is CIRCLE else 3))
-    found = feet(shape, unknown, p)
-    np.testing.assert_allclose(distances(shape.name, unknown, found), 0, atol=1e-9)
+    p_feet = feet(shape, unknown, p)
+    np.testing.assert_allclose(distances(shape.name, unknown, p_feet), 0, atol=1e-9)
     np.testing.assert_allclose(
-        np.linalg.norm(found - p, axis=1), np.abs(distances(shape.name, unknown, p)), atol=1e-9
+        np.linalg.norm(p_feet - p, axis=1), np.abs(distances(shape.name, unknown, p)), atol=1e-9
     )
     ends = outline(shape, unknown, 4.0)
     assert ends.shape[1:] == (2, 3)
@@ -61,11 +61,11 @@ def test_a_cylinder_is_scipys():
         return distances("cylinder", line, p)
 
     oracle = scipy.optimize.least_squares(away, [0.1, 0.1, 0.1, 0.0, 0.9], xtol=1e-12, ftol=1e-12)
-    found = fit_round(CYLINDER, p[None], STARTS["cylinder"][None], tolerance=1e-13)[0]
-    assert np.square(distances("cylinder", found, p)).sum() == pytest.approx(
+    fitted = fit_round(CYLINDER, p[None], STARTS["cylinder"][None], tolerance=1e-13)[0]
+    assert np.square(distances("cylinder", fitted, p)).sum() == pytest.approx(
         2 * oracle.cost, rel=1e-6
     )
-    assert found[6] == pytest.approx(oracle.x[4], abs=1e-5)
+    assert fitted[6] == pytest.approx(oracle.x[4], abs=1e-5)
 
 
 def test_sets_are_fitted_each_alone():

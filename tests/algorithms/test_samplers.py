@@ -38,11 +38,11 @@ def test_every_row_is_equally_likely(n):
 
 
 def test_uniform_samples_are_reproducible_and_endless():
-    one, two = (
+    samples, two = (
         list(islice(uniform_samples(50, 4, np.random.default_rng(7)), 30)) for _ in range(2)
     )
-    np.testing.assert_array_equal(one, two)
-    assert len({tuple(sample) for sample in np.array(one).tolist()}) > 20
+    np.testing.assert_array_equal(samples, two)
+    assert len({tuple(sample) for sample in np.array(samples).tolist()}) > 20
 
 
 def test_prosac_starts_with_the_most_trusted_and_lets_the_others_in_by_rank():
@@ -101,13 +101,13 @@ def test_the_termination_length_is_the_papers(seed, n, size, *, share):
     by_trust = inliers[np.argsort(-quality)]
     allowed = [(0.0, 0)]
     for k in range(min(20, n), n + 1):
-        found = int(by_trust[:k].sum())
+        count = int(by_trust[:k].sum())
         tail = sum(
             math.comb(k - size, i) * 0.05**i * 0.95 ** (k - size - i)
-            for i in range(max(found - size, 0), k - size + 1)
+            for i in range(max(count - size, 0), k - size + 1)
         )
-        if k > size and found > size and tail < 0.05:
-            allowed.append((found / k, k))
+        if k > size and count > size and tail < 0.05:
+            allowed.append((count / k, k))
     best, length = max(allowed)
     assert termination_length(inliers, quality, size) == (length, pytest.approx(best))
 

@@ -53,10 +53,10 @@ def test_the_plan_does_not_depend_on_the_start(seed, n, m, *, blur):
     # tanh(1/2)^2, below 1/4: Peyre and Cuturi 2019, theorem 4.1
     cost = costs(seed, n, m)
     regularisation = blur * cost.max()
-    found = sinkhorn(cost, regularisation, tolerance=1e-13, max_sweeps=40)
+    blurred = sinkhorn(cost, regularisation, tolerance=1e-13, max_sweeps=40)
     f, g = log_domain(cost, regularisation, np.random.default_rng(seed).normal(size=m), sweeps=40)
     np.testing.assert_allclose(
-        found.plan(cost), np.exp((f[:, None] + g - cost) / regularisation), atol=1e-12
+        blurred.plan(cost), np.exp((f[:, None] + g - cost) / regularisation), atol=1e-12
     )
 
 
@@ -67,15 +67,17 @@ def test_sums_are_as_right_as_it_says_and_the_cost_is_above_the_optimum(seed, n,
     p_a = rng.normal(size=(n, 3))
     p_b = rng.normal(size=(m, 3)) + 0.5
     cost = scipy.spatial.distance.cdist(p_a, p_b)
-    found = sinkhorn(cost, 0.2, max_sweeps=max_sweeps)
-    assert found.stop is (Stop.CONVERGED if found.marginal_error <= 1e-9 else Stop.MAX_SWEEPS)
-    plan = found.plan(cost)
-    assert np.abs(plan.sum(axis=1) - 1 / n).sum() == pytest.approx(found.marginal_error, abs=1e-12)
+    blurred = sinkhorn(cost, 0.2, max_sweeps=max_sweeps)
+    assert blurred.stop is (Stop.CONVERGED if blurred.marginal_error <= 1e-9 else Stop.MAX_SWEEPS)
+    plan = blurred.plan(cost)
+    assert np.abs(plan.sum(axis=1) - 1 / n).sum() == pytest.approx(
+        blurred.marginal_error, abs=1e-12
+    )
     np.testing.assert_allclose(plan.sum(axis=0), 1 / m, atol=1e-12)
     missing = (
-        2 * found.marginal_error * cost.max()
+        2 * blurred.marginal_error * cost.max()
     )  # what it costs at most to give all masses their place
-    assert found.cost(cost) >= earth_movers(p_a, p_b) - missing - 1e-12
+    assert blurred.cost(cost) >= earth_movers(p_a, p_b) - missing - 1e-12
 
 
 def test_less_blur_is_nearer_to_the_optimum():
@@ -102,24 +104,24 @@ def test_scalings_that_would_overflow_are_absorbed():
     cost = costs(2, 30, 30, offset=100.0)  # exp(-cost / regularisation) is zero everywhere
     regularisation = 2e-3
     assert not np.exp(-cost / regularisation).any()
-    found = sinkhorn(cost, regularisation, max_sweeps=20_000, tolerance=1e-6)
-    assert np.isfinite(found.f).all()
-    assert np.isfinite(found.g).all()
-    assert found.marginal_error < 1e-3
+    blurred = sinkhorn(cost, regularisation, max_sweeps=20_000, tolerance=1e-6)
+    assert np.isfinite(blurred.f).all()
+    assert np.isfinite(blurred.g).all()
+    assert blurred.marginal_error < 1e-3
     rows, columns = scipy.optimize.linear_sum_assignment(cost)
-    assert found.cost(cost) == pytest.approx(cost[rows, columns].mean(), rel=1e-3)
+    assert blurred.cost(cost) == pytest.approx(cost[rows, columns].mean(), rel=1e-3)
 
 
 def test_a_gradual_climb_of_the_scalings_is_absorbed():
     # a chain of points that must all shift by one: the potentials climb along it, beyond what exp
     # can hold
     cost = np.abs(np.arange(40.0)[:, None] - np.arange(40.0) - 0.9)
-    found = sinkhorn(cost, 0.004, max_sweeps=3000, tolerance=1e-6)
-    assert np.ptp(found.f) / found.regularisation > 1000
-    plan = found.plan(cost)
+    blurred = sinkhorn(cost, 0.004, max_sweeps=3000, tolerance=1e-6)
+    assert np.ptp(blurred.f) / blurred.regularisation > 1000
+    plan = blurred.plan(cost)
     assert np.isfinite(plan).all()
     np.testing.assert_allclose(plan.sum(axis=0), 1 / 40, rtol=1e-6)
-    assert found.stop is Stop.MAX_SWEEPS
+    assert blurred.stop is Stop.MAX_SWEEPS
 
 
 def test_the_error_falls_and_the_last_state_says_why():

@@ -126,7 +126,7 @@ def test_training_goes_down_the_gradient():
         for at in np.ndindex(w.shape):
             ends = []
             for sign in (1, -1):
-                moved = [one.copy() for one in weights]
+                moved = [matrix.copy() for matrix in weights]
                 moved[layer][at] += sign * step
                 ends.append(loss(moved))
             slope[at] = (ends[0] - ends[1]) / (2 * step)

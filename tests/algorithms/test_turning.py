@@ -47,9 +47,9 @@ def test_frozen_partners_touch_the_true_cost_and_lie_above_it(lines):
 
 def test_nearest_agrees_with_a_search_one_by_one(lines):
     p_target, p_source, _ = lines
-    found = nearest(p_target, p_source)
-    assert found.dtype == np.intp
-    assert found.tolist() == [
+    indices = nearest(p_target, p_source)
+    assert indices.dtype == np.intp
+    assert indices.tolist() == [
         int(np.argmin(np.linalg.norm(p_target - p, axis=1))) for p in p_source
     ]
 

@@ -32,28 +32,28 @@ def test_a_ray_is_a_line_and_ends_where_infinity_is_seen():
     T, *_ = pair(0)
     uv = np.array([400.0, 300.0])
     depths = np.array([3.0, 6.0, 100.0, np.inf])
-    found = list(follow_ray(uv, depths, T, K_first=K, K_second=L))
-    assert [now.stage for now in found] == 4 * ["ray"] + ["plane", "pencil"]
+    states = list(follow_ray(uv, depths, T, K_first=K, K_second=L))
+    assert [state.stage for state in states] == 4 * ["ray"] + ["plane", "pencil"]
     line = epipolar_lines(fundamental_from_cameras(K, L, T), uv[None])[0]
-    np.testing.assert_allclose(homogeneous(found[-1].uv_second) @ line, 0, atol=1e-3)
+    np.testing.assert_allclose(homogeneous(states[-1].uv_second) @ line, 0, atol=1e-3)
     away = L @ T[:3, :3] @ np.linalg.inv(K) @ [*uv, 1]
-    np.testing.assert_allclose(found[-1].uv_second[-1], away[:2] / away[2], atol=1e-2)
+    np.testing.assert_allclose(states[-1].uv_second[-1], away[:2] / away[2], atol=1e-2)
     turned = T.copy()
     turned[:3, 3] = 0
-    found = list(follow_ray(uv, depths, turned, K_first=K, K_second=L))
-    assert [now.stage for now in found] == 4 * ["ray"]
-    assert np.ptp(found[-1].uv_second, axis=0).max() < 1e-9
+    states = list(follow_ray(uv, depths, turned, K_first=K, K_second=L))
+    assert [state.stage for state in states] == 4 * ["ray"]
+    assert np.ptp(states[-1].uv_second, axis=0).max() < 1e-9
 
 
 def test_points_behind_the_second_camera_are_not_seen():
     T, *_ = pair(0)
     T = T.copy()
     T[:3, 3] -= [0, 0, 5]
-    found = list(
+    last = list(
         follow_ray(np.array([400.0, 300.0]), np.array([3.0, 20.0]), T, K_first=K, K_second=L)
     )[-1]
-    assert np.isnan(found.uv_second[0]).all()
-    assert np.isfinite(found.uv_second[1]).all()
+    assert np.isnan(last.uv_second[0]).all()
+    assert np.isfinite(last.uv_second[1]).all()
 
 
 def test_the_linear_answer_is_eight_points_before_its_rank():
@@ -74,21 +74,23 @@ def test_the_linear_answer_is_eight_points_before_its_rank():
 @pytest.mark.parametrize("route", ["eight-point", "refined F", "refined pose"])
 def test_every_route_ends_at_the_motion_without_noise(route):
     T, p, uv_first, uv_second = pair(2)
-    found = steps(uv_first, uv_second, route=route)
-    last = found[-1]
+    states = steps(uv_first, uv_second, route=route)
+    last = states[-1]
     assert last.stage == "rectified"
-    assert len(found) < 30
+    assert len(states) < 30
     assert last.T_second_first is not None
     assert last.p_first is not None
     assert degrees_between(last.T_second_first, T) < 1e-4
     np.testing.assert_allclose(last.p_first * np.linalg.norm(T[:3, 3]), p, atol=1e-3)
-    assert sum(now.stage == "pose" for now in found) == 4
+    assert sum(state.stage == "pose" for state in states) == 4
 
 
 def test_refinement_never_raises_the_distances():
     _, _, uv_first, uv_second = pair(3, 40, 1.0)
     for route, stage in (("refined F", "refined F"), ("refined pose", "refined")):
-        rounds = [now.F for now in steps(uv_first, uv_second, route=route) if now.stage == stage]
+        rounds = [
+            state.F for state in steps(uv_first, uv_second, route=route) if state.stage == stage
+        ]
         costs = [np.square(sampson_distances(F, uv_first, uv_second)).sum() for F in rounds]
         assert (np.diff(costs) <= 1e-9).all()
 

@@ -15,16 +15,16 @@ from workbench.geometry.shapes.globe import PLANETS, great_circle_distance
 )
 def test_straight_on_the_map_is_longer(route, more):
     places = between_cities(route).degrees
-    *found, middle = travel(places, 16, great_circle_distance)
-    last = found[-1]
+    *states, middle = travel(places, 16, great_circle_distance)
+    last = states[-1]
     assert 100 * (last.straight_length / last.circle_length - 1) == pytest.approx(more, abs=0.06)
     assert straight_over_shortest(places) == pytest.approx(
         last.straight_length / last.circle_length, abs=1e-4
     )
     assert last.circle_length == pytest.approx(last.direct, rel=1e-9)
     assert middle.apart == pytest.approx(between_means(places), rel=1e-6)
-    for now in found[1:]:
-        step = apart(now.circle[:-1], now.circle[1:])
+    for state in states[1:]:
+        step = apart(state.circle[:-1], state.circle[1:])
         np.testing.assert_allclose(step, last.direct / 192, rtol=1e-6)
 
 
@@ -36,8 +36,10 @@ def test_the_mean_of_longitudes_is_across_the_world():
 
 
 def test_whatever_measures_drives_the_ways():
-    *found, _ = travel(np.array([[0.0, 0.0], [10.0, 0.0]]), 2, lambda a, b, radius: np.ones(len(a)))
-    assert [now.circle_length for now in found] == [0, 12, 24]
+    *states, _ = travel(
+        np.array([[0.0, 0.0], [10.0, 0.0]]), 2, lambda a, b, radius: np.ones(len(a))
+    )
+    assert [state.circle_length for state in states] == [0, 12, 24]
 
 
 def test_both_latitudes_agree_at_equator_and_pole():

@@ -50,13 +50,13 @@ def test_what_is_shown_of_the_new_lesson_is_in_its_files(file, text):
 
 def test_its_files_are_listed():
     listed = re.findall(r"^\| `([\w./]+)`", GUIDE, re.MULTILINE)
-    there = [
+    paths = [
         path.relative_to(TEMPLATE)
         for path in TEMPLATE.rglob("*.*")
         if "__pycache__" not in path.parts
     ]
     assert {
-        path.as_posix() if len(path.parts) == 1 else "exercises/NAME.py" for path in there
+        path.as_posix() if len(path.parts) == 1 else "exercises/NAME.py" for path in paths
     } <= set(listed)
 
 
@@ -94,8 +94,8 @@ def test_every_helper_stands_where_the_guide_says_with_the_arguments_it_names():
         named = [argument.strip() for argument in arguments.split(",")]
         assert {argument.rstrip("=") for argument in named} <= set(known), f"{module}.{name}"
         needed = [
-            one
-            for one, parameter in known.items()
+            key
+            for key, parameter in known.items()
             if parameter.default is parameter.empty and parameter.kind is not parameter.VAR_KEYWORD
         ]
         assert [argument.rstrip("=") for argument in named][: len(needed)] == needed, (

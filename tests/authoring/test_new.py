@@ -14,9 +14,9 @@ from workbench.cli import main
 def written(tmp_path, monkeypatch, capfd) -> Path:
     monkeypatch.chdir(tmp_path)
     assert main(["new", "beacon"]) == 0
-    said = capfd.readouterr().out.splitlines()
-    assert [Path(line) for line in said[:-1]] == sorted(Path("beacon").rglob("*.*"))
-    assert said[-1] == "Open it: workbench show beacon"
+    lines = capfd.readouterr().out.splitlines()
+    assert [Path(line) for line in lines[:-1]] == sorted(Path("beacon").rglob("*.*"))
+    assert lines[-1] == "Open it: workbench show beacon"
     return tmp_path / "beacon"
 
 
@@ -57,7 +57,7 @@ def test_its_exercise_is_handed_out_and_judged(written, tmp_path, capfd):
 
 
 @pytest.mark.parametrize(
-    ("name", "said"),
+    ("name", "message"),
     [
         ("two words", "'two words' is no name for a lesson"),
         ("../up", "'../up' is no name for a lesson"),
@@ -68,11 +68,11 @@ def test_its_exercise_is_handed_out_and_judged(written, tmp_path, capfd):
     ],
 )
 def test_what_is_no_name_or_taken_is_refused_and_nothing_is_written(
-    tmp_path, monkeypatch, capfd, *, name, said
+    tmp_path, monkeypatch, capfd, *, name, message
 ):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "taken").write_text("mine")
     assert main(["new", name]) == 2
-    assert capfd.readouterr().err.startswith(f"workbench: {said}")
+    assert capfd.readouterr().err.startswith(f"workbench: {message}")
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
     assert (tmp_path / "taken").read_text() == "mine"

@@ -25,7 +25,7 @@ WITH_FILES = [
 BOUND = [
     (name, field)
     for name, field in WITH_FILES
-    if next(one for one in fields_of(course()[name].params) if one.name == field).knob.needs
+    if next(param for param in fields_of(course()[name].params) if param.name == field).knob.needs
 ]
 
 
@@ -50,7 +50,7 @@ def test_a_file_that_no_made_one_is_like_is_found():
 @pytest.mark.parametrize(("name", "field"), BOUND)
 def test_a_file_opens_a_stage_that_shows_it(tmp_path, name, field):
     lesson = course()[name]
-    needs = next(one for one in fields_of(lesson.params) if one.name == field).knob.needs
+    needs = next(param for param in fields_of(lesson.params) if param.name == field).knob.needs
     for preset in (None, *lesson.presets):
         session = Session(lesson)
         if preset is not None:
@@ -120,6 +120,6 @@ def test_a_command_names_flags_and_keeps_the_choice_that_was_made(tmp_path, caps
 
 
 def test_a_name_that_is_no_param_stays_a_word():
-    said = f"give {called('scan')} or {called('nothing')}"
-    assert in_words(said, fake.Params) == "give “Scan” or “nothing”"
+    message = f"give {called('scan')} or {called('nothing')}"
+    assert in_words(message, fake.Params) == "give “Scan” or “nothing”"
     assert paths_of(fake.Params) == ["scan"]

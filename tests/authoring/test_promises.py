@@ -400,8 +400,8 @@ BROKEN = [
 ]
 
 
-@pytest.mark.parametrize(("file", "old", "new", "said"), BROKEN)
-def test_what_does_not_hold_is_told_by_its_place(folder, file, old, *, new, said):
+@pytest.mark.parametrize(("file", "old", "new", "message"), BROKEN)
+def test_what_does_not_hold_is_told_by_its_place(folder, file, old, *, new, message):
     text = (folder / file).read_text(encoding="utf-8")
     assert old in text
     text = text.replace(old, new)
@@ -421,11 +421,13 @@ def test_what_does_not_hold_is_told_by_its_place(folder, file, old, *, new, said
                 1,
             )
     (folder / file).write_text(text, encoding="utf-8")
-    found = wrong(folder)
-    if said is None:
-        assert found == []
+    lines = wrong(folder)
+    if message is None:
+        assert lines == []
         return
     assert [
-        line for line in found if re.search(re.escape(said).replace("line\\ N", r"line \d+"), line)
-    ], "\n".join(found)
-    assert all("\n" not in line for line in found)
+        line
+        for line in lines
+        if re.search(re.escape(message).replace("line\\ N", r"line \d+"), line)
+    ], "\n".join(lines)
+    assert all("\n" not in line for line in lines)

@@ -69,7 +69,7 @@ def test_files_that_are_new_or_go_away_count_and_others_do_not(edited):
 
 
 @pytest.mark.parametrize(
-    ("file", "old", "new", "said"),
+    ("file", "old", "new", "message"),
     [
         ("draw.py", "def draw", "def (draw", "circle/draw.py, line 10: SyntaxError"),
         ("draw.py", "state.k else", "state.key else", "circle/draw.py, line 13: AttributeError"),
@@ -84,13 +84,13 @@ def test_files_that_are_new_or_go_away_count_and_others_do_not(edited):
     ],
 )
 def test_a_broken_save_keeps_the_lesson_and_says_where_until_it_is_mended(
-    edited, file, old, *, new, said
+    edited, file, old, *, new, message
 ):
     before = edited.lesson
     save(edited, file, old, new=new)
     assert edited.changed()
     assert edited.lesson is before
-    assert said in str(edited.trouble)
+    assert message in str(edited.trouble)
     assert Timeline(before, before.params()).extend()
     save(edited, file, new, new=old)
     assert edited.changed()

@@ -31,7 +31,7 @@ def lesson() -> Lesson:
 def test_it_is_small():
     lines = [path.read_text(encoding="utf-8").splitlines() for path in CIRCLE.rglob("*.py")]
     assert sum(map(len, lines)) <= MOST_LINES
-    assert max(len(line) for one in lines for line in one) <= 100
+    assert max(len(line) for file in lines for line in file) <= 100
 
 
 def test_the_guide_names_all_that_it_takes_from_the_workbench():
@@ -42,7 +42,7 @@ def test_the_guide_names_all_that_it_takes_from_the_workbench():
                 for alias in node.names:
                     module = node.module or ""
                     written = (f"`{alias.name}`", f"`@{alias.name}`", f"{alias.name}(")
-                    known = any(one in guide for one in written)
+                    known = any(form in guide for form in written)
                     assert known or f"{module}.{alias.name}" in guide, f"{module}.{alias.name}"
 
 

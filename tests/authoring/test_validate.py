@@ -25,9 +25,9 @@ def folder(tmp_path) -> Path:
 
 def test_a_lesson_that_holds(folder, capfd):
     assert main(["validate", str(folder)]) == 0
-    said = capfd.readouterr()
-    assert re.fullmatch(r"circle: holds \(\d{3} .*\n", said.out)
-    assert said.err == ""
+    output = capfd.readouterr()
+    assert re.fullmatch(r"circle: holds \(\d{3} .*\n", output.out)
+    assert output.err == ""
 
 
 def test_the_smallest_lesson_is_told_what_it_lacks(tmp_path, capfd):
@@ -45,7 +45,7 @@ def test_what_is_not_there_is_no_finding(word, capfd):
 
 
 @pytest.mark.parametrize(
-    ("file", "old", "new", "said"),
+    ("file", "old", "new", "message"),
     [
         (
             "lesson.py",
@@ -96,12 +96,12 @@ def test_what_is_not_there_is_no_finding(word, capfd):
         ("exercises/fit_circle.py", "CIRCLE =", "1 / 0\nCIRCLE =", "fit_circle.py, line"),
     ],
 )
-def test_what_takes_a_process_down_is_a_line_with_its_place(folder, file, old, *, new, said):
+def test_what_takes_a_process_down_is_a_line_with_its_place(folder, file, old, *, new, message):
     text = (folder / file).read_text(encoding="utf-8")
     assert old in text
     (folder / file).write_text(text.replace(old, new), encoding="utf-8")
     told: list[str] = []
-    found = validate(str(folder), told.append, seconds=2.0)
-    assert told == list(found.wrong)
-    assert [line for line in told if said in line], told
+    report = validate(str(folder), told.append, seconds=2.0)
+    assert told == list(report.wrong)
+    assert [line for line in told if message in line], told
     assert all("Traceback" not in line for line in told)

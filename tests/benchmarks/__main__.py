@@ -67,11 +67,11 @@ class Ran:
     @property
     def section(self) -> str:
         """What the page says of it, in Markdown."""
-        said = "\n".join(line.rstrip() for line in self.said.splitlines())
+        text = "\n".join(line.rstrip() for line in self.said.splitlines())
         at = datetime.datetime.now(datetime.UTC).date()
         load = f"load before it {self.busy:.1f}{busyness(self.busy)}"
         took = f"Took {self.seconds:.0f} s on {at}; {load}."
-        return f"{self.about}\n\n```text\n{said}\n```\n\n{took}\n"
+        return f"{self.about}\n\n```text\n{text}\n```\n\n{took}\n"
 
 
 def main() -> int:
@@ -135,17 +135,17 @@ def measured(name: str) -> Ran:
             text=True,
             timeout=LONGEST,
         )
-        said = (
+        output = (
             done.stdout
             if done.returncode == 0
             else f"{done.stdout}failed: {(done.stderr.strip().splitlines() or ['killed'])[-1]}"
         )
     except subprocess.TimeoutExpired:
-        said = f"given up after {LONGEST:.0f} s"
+        output = f"given up after {LONGEST:.0f} s"
     return Ran(
         name=name,
         about=about,
-        said=said.strip("\n"),
+        said=output.strip("\n"),
         seconds=time.monotonic() - began,
         busy=busy,
     )
@@ -214,13 +214,13 @@ def processor() -> str:
 
 def versions(packages: tuple[str, ...]) -> str:
     """Return the versions of those that are installed."""
-    found = []
+    installed = []
     for package in packages:
         try:
-            found.append(f"{package} {importlib.metadata.version(package)}")
+            installed.append(f"{package} {importlib.metadata.version(package)}")
         except importlib.metadata.PackageNotFoundError:
             continue
-    return ", ".join(found)
+    return ", ".join(installed)
 
 
 if __name__ == "__main__":

@@ -22,8 +22,8 @@ async def attack(address: str, seconds: float) -> None:
     end = time.perf_counter() + seconds
     began = time.perf_counter()
     sent = {"wishes": 0, "garbage": 0}
-    one = await FakePage(address, "?lesson=transforms").open()
-    quiet = [await one.socket(f"live?token={i:024x}") for i in range(300)]
+    visitor = await FakePage(address, "?lesson=transforms").open()
+    quiet = [await visitor.socket(f"live?token={i:024x}") for i in range(300)]
 
     async def taking_nothing() -> None:
         page = await FakePage(address, "?lesson=disparity").open(read=False)
@@ -64,7 +64,7 @@ async def attack(address: str, seconds: float) -> None:
             await asyncio.sleep(1.0)
             for_ = time.perf_counter() - began
             print(
-                ", ".join(f"{count / for_:,.0f} {what} a second" for what, count in sent.items()),
+                ", ".join(f"{count / for_:,.0f} {kind} a second" for kind, count in sent.items()),
                 flush=True,
             )
 

@@ -42,14 +42,17 @@ def main() -> None:
             *_, last = calibrate(p, uv, boards.SIZE)
             return last
 
-        found = ours().adjustment
+        adjustment = ours().adjustment
         spent = []
-        assert found is not None
+        assert adjustment is not None
         if cv2 is None:
             print(f"{name:12}{min(timed(ours) for _ in range(rounds)):9.1f}")
             continue
         cv2.setNumThreads(1)
-        given = [p.astype(np.float32)] * len(uv), [one.astype(np.float32)[:, None] for one in uv]
+        given = (
+            [p.astype(np.float32)] * len(uv),
+            [pixels.astype(np.float32)[:, None] for pixels in uv],
+        )
 
         def theirs(given: tuple = given, solve=cv2.calibrateCameraExtended) -> tuple:
             return solve(*given, boards.SIZE, None, None)
@@ -60,13 +63,13 @@ def main() -> None:
         least = np.min(spent, axis=0)
         ratio = float(np.median([a / b for a, b in spent]))
         apart = (
-            abs(np.sqrt(found.cost / (uv.size / 2)) - other[0]),
-            np.abs(found.K - other[1]).max(),
-            np.abs(found.deviations - other[5].ravel()[:9]).max(),
+            abs(np.sqrt(adjustment.cost / (uv.size / 2)) - other[0]),
+            np.abs(adjustment.K - other[1]).max(),
+            np.abs(adjustment.deviations - other[5].ravel()[:9]).max(),
         )
         print(
             f"{name:12}{least[0]:9.1f}{least[1]:9.1f}{ratio:8.2f}{2:9.0f}"
-            + "".join(f"{one:11.1e}" for one in apart)
+            + "".join(f"{difference:11.1e}" for difference in apart)
         )
 
 
@@ -74,14 +77,14 @@ def cameras() -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Return points of the board and their pixels, by camera."""
     rng = np.random.default_rng(0)
     Ts = boards.board_poses(rng, 13, tilt=0.5, distance=0.4, spread=1.0)
-    found = {"built-in": (boards.board_points(), boards.board_pixels(rng, Ts, sigma=0.2))}
+    views = {"built-in": (boards.board_points(), boards.board_pixels(rng, Ts, sigma=0.2))}
     if CORNERS.is_file():
         arrays = np.load(CORNERS)
-        found |= {
-            f"real {one}": (arrays["object_points"].astype(float), arrays[one].astype(float))
-            for one in ("left", "right")
+        views |= {
+            f"real {side}": (arrays["object_points"].astype(float), arrays[side].astype(float))
+            for side in ("left", "right")
         }
-    return found
+    return views
 
 
 def timed(task) -> float:

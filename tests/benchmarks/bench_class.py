@@ -84,14 +84,14 @@ class Served:
         """Return threads, and MB in memory."""
         all_of_it = self._all()
         return (
-            sum(one.num_threads() for one in all_of_it),
-            sum(one.memory_full_info().pss for one in all_of_it) / 2**20,
+            sum(process.num_threads() for process in all_of_it),
+            sum(process.memory_full_info().pss for process in all_of_it) / 2**20,
         )
 
     def spent(self) -> tuple[float, float]:
         """Return seconds of a clock, and seconds of CPU."""
-        times = [one.cpu_times() for one in self._all()]
-        return time.perf_counter(), sum(one.user + one.system for one in times)
+        times = [process.cpu_times() for process in self._all()]
+        return time.perf_counter(), sum(used.user + used.system for used in times)
 
     def stop(self) -> None:
         self._process.terminate()
@@ -163,27 +163,27 @@ async def one_knob(page: FakePage, rng: np.random.Generator) -> bool:
 
 async def one_lesson(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     """All on one lesson, stepping once a second."""
-    found = {"one lesson": Waits()}
+    waits = {"one lesson": Waits()}
     pages = await class_of(server, [f"?lesson={given.lesson}"] * given.students)
     await asyncio.gather(*(page.until(lambda page: page.run["finished"]) for page in pages))
     await measured(
         server,
         given,
-        [lambda end, page=page: stepping(page, end, found["one lesson"]) for page in pages],
+        [lambda end, page=page: stepping(page, end, waits["one lesson"]) for page in pages],
     )
     await asyncio.gather(*(page.close() for page in pages))
-    return found
+    return waits
 
 
 async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     """All on mixed lessons, doing something once a second; beside them one who only steps, and new
     pages.
     """
-    found = {
+    waits = {
         name: Waits()
         for name in ("mixed, knobs", "mixed, their steps", "mixed, steps", "mixed, new page")
     }
-    learned = found["mixed, knobs"], found["mixed, their steps"]
+    learned = waits["mixed, knobs"], waits["mixed, their steps"]
     names = given.lessons
     pages = await class_of(
         server, [f"?lesson={names[i % len(names)]}" for i in range(given.students)]
@@ -194,18 +194,18 @@ async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
         lambda end, page=page, i=i: learning(page, end, learned, rng=np.random.default_rng(i))
         for i, page in enumerate(pages)
     ]
-    tasks += [lambda end: stepping(walker, end, found["mixed, steps"], every=0.25)]
-    tasks += [lambda end: coming(server, "?lesson=transforms", end, waits=found["mixed, new page"])]
+    tasks += [lambda end: stepping(walker, end, waits["mixed, steps"], every=0.25)]
+    tasks += [lambda end: coming(server, "?lesson=transforms", end, waits=waits["mixed, new page"])]
     await measured(server, given, tasks)
     await asyncio.gather(*(page.close() for page in (*pages, walker)))
-    return found
+    return waits
 
 
 async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     """One who steps, alone; then beside 30 browsers that say nothing and 30 that reload all the
     time.
     """
-    found = {
+    waits = {
         name: Waits()
         for name in ("alone, steps", "alone, new page", "silent, steps", "silent, new page")
     }
@@ -214,9 +214,9 @@ async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
 
     def walking(which: str) -> list[Callable[[float], Awaitable[None]]]:
         return [
-            lambda end: stepping(walker, end, found[f"{which}, steps"], every=0.25),
+            lambda end: stepping(walker, end, waits[f"{which}, steps"], every=0.25),
             lambda end: coming(
-                server, "?lesson=transforms", end, waits=found[f"{which}, new page"]
+                server, "?lesson=transforms", end, waits=waits[f"{which}, new page"]
             ),
         ]
 
@@ -231,16 +231,16 @@ async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
 
     await measured(server, given, [*(reloading for _ in range(30)), *walking("silent")])
     await asyncio.gather(*(socket.close() for socket in quiet), walker.close())
-    return found
+    return waits
 
 
 async def attacked(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     """One who steps, alone; then beside the attackers, who have a process of their own."""
-    found = {name: Waits() for name in ("alone, steps", "attacked, steps", "attacked, new page")}
+    waits = {name: Waits() for name in ("alone, steps", "attacked, steps", "attacked, new page")}
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
     await measured(
-        server, given, [lambda end: stepping(walker, end, found["alone, steps"], every=0.25)]
+        server, given, [lambda end: stepping(walker, end, waits["alone, steps"], every=0.25)]
     )
     command = [
         sys.executable,
@@ -253,16 +253,16 @@ async def attacked(server: Served, given: argparse.Namespace) -> dict[str, Waits
         while await asyncio.to_thread(attackers.stdout.readline) != "here\n":
             assert attackers.is_running()
         tasks: list[Callable[[float], Awaitable[None]]] = [
-            lambda end: stepping(walker, end, found["attacked, steps"], every=0.25),
+            lambda end: stepping(walker, end, waits["attacked, steps"], every=0.25),
             lambda end: coming(
-                server, "?lesson=transforms", end, waits=found["attacked, new page"]
+                server, "?lesson=transforms", end, waits=waits["attacked, new page"]
             ),
         ]
         await measured(server, given, tasks)
         attackers.terminate()
         print(f"  sent in all: {(attackers.stdout.read().strip().splitlines() or [''])[-1]}")
     await walker.close()
-    return found
+    return waits
 
 
 async def coming(server: Served, query: str, end: float, *, waits: Waits) -> None:
@@ -362,21 +362,21 @@ def main() -> None:
         before = os.getloadavg()[0]
         server = Served(given.threads)
         try:
-            found = asyncio.run(SCENARIOS[name](server, given)) or {}
-            threads, memory_after = afterwards(server, given.spent[2]) if found else (0, 0.0)
+            results = asyncio.run(SCENARIOS[name](server, given)) or {}
+            threads, memory_after = afterwards(server, given.spent[2]) if results else (0, 0.0)
         finally:
             server.stop()
-        for who, waits in found.items():
+        for label, waits in results.items():
             words, scene = np.array(waits.words or [np.nan]), np.array(waits.scene or [np.nan])
             print(
-                f"{who:<18} {len(waits.words):6d} {np.median(words):18.0f}"
+                f"{label:<18} {len(waits.words):6d} {np.median(words):18.0f}"
                 f" {np.quantile(words, 0.95):6.0f} {words.max():6.0f}"
-                f" {np.quantile(scene, 0.95):11.0f}   {GOALS[who]}"
+                f" {np.quantile(scene, 0.95):11.0f}   {GOALS[label]}"
             )
-        if not found:
+        if not results:
             continue
         cores, ours, memory, seconds = given.spent
-        each = 1000 * cores * seconds / max(1, sum(len(waits.words) for waits in found.values()))
+        each = 1000 * cores * seconds / max(1, sum(len(waits.words) for waits in results.values()))
         print(
             f"  server: {cores:.2f} cores, {each:.1f} ms for each wish; students: {ours:.2f} cores;"
             f" load before {before:.1f}, after {os.getloadavg()[0]:.1f}\n  memory:"

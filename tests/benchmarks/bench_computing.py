@@ -45,15 +45,15 @@ def children() -> Iterator[tuple[str, str]]:
     above = {}
     for name in filter(str.isdigit, os.listdir("/proc")):
         try:
-            said = Path(f"/proc/{name}/stat").read_text()
-            above[name] = said[said.rindex(")") + 2 :].split()[1]
+            stat = Path(f"/proc/{name}/stat").read_text()
+            above[name] = stat[stat.rindex(")") + 2 :].split()[1]
         except OSError:
             continue
     for name in above:
-        one = name
-        while one in above and one != str(os.getpid()):
-            one = above[one]
-        if one == str(os.getpid()) and name != one:
+        ancestor = name
+        while ancestor in above and ancestor != str(os.getpid()):
+            ancestor = above[ancestor]
+        if ancestor == str(os.getpid()) and name != ancestor:
             try:
                 yield name, Path(f"/proc/{name}/cmdline").read_text()
             except OSError:
@@ -65,8 +65,8 @@ def processor() -> float:
     spent = 0
     for name, command in children():
         if "chrom" in command:
-            said = Path(f"/proc/{name}/stat").read_text()
-            fields = said[said.rindex(")") + 2 :].split()
+            stat = Path(f"/proc/{name}/stat").read_text()
+            fields = stat[stat.rindex(")") + 2 :].split()
             spent += int(fields[11]) + int(fields[12])
     return spent / os.sysconf("SC_CLK_TCK")
 
@@ -96,19 +96,19 @@ def visited(context: Any, address: str, *, knob: str, values: list[float]) -> di
     page.locator("button.compute:visible").click()
     began(page)
     page.evaluate(FIRST)
-    found = {"first picture, s": time.monotonic() - start}
-    found["first picture, CPU s"] = processor() - spent
+    figures = {"first picture, s": time.monotonic() - start}
+    figures["first picture, CPU s"] = processor() - spent
     page.wait_for_timeout(4000)
     taken = page.evaluate(MOVED, [knob, values])
-    found["knob ms"], found["95 %"] = float(np.median(taken)), float(np.quantile(taken, 0.95))
-    found["MB"] = memory()
+    figures["knob ms"], figures["95 %"] = float(np.median(taken)), float(np.quantile(taken, 0.95))
+    figures["MB"] = memory()
     start = time.monotonic()
     page.evaluate("compute.stop()")
-    found["stop s"] = time.monotonic() - start
+    figures["stop s"] = time.monotonic() - start
     began(page)
-    found["back s"] = time.monotonic() - start
+    figures["back s"] = time.monotonic() - start
     page.close()
-    return found
+    return figures
 
 
 def main() -> None:
@@ -118,15 +118,15 @@ def main() -> None:
     words.add_argument("--moves", type=int, default=20)
     given = words.parse_args()
     python = os.environ.get("WORKBENCH_PYODIDE", str(ROOT.parent / "shared" / "pyodide"))
-    named = [one.split(":") for one in given.lessons]
+    named = [lesson.split(":") for lesson in given.lessons]
     print(f"load of other work {os.getloadavg()[0]:.1f}; goals: {GOALS}")
     with sites([name for name, *_ in named], python) as address, started() as chromium:
         for name, knob, low, high in named:
             context = chromium.new_context(viewport={"width": 1280, "height": 800})
             values = np.linspace(float(low), float(high), given.moves).tolist()
             for visit in ("first", "second"):
-                found = visited(context, f"{address}/{name}/index.html", knob=knob, values=values)
-                told = ", ".join(f"{what} {value:.3g}" for what, value in found.items())
+                figures = visited(context, f"{address}/{name}/index.html", knob=knob, values=values)
+                told = ", ".join(f"{label} {value:.3g}" for label, value in figures.items())
                 print(f"{name}, {visit} visit: {told}")
             context.close()
 

@@ -77,8 +77,8 @@ def both(
     p, faces = surface.p, surface.faces
 
     def ours() -> Estimate:
-        found = curvatures(p, faces)
-        return found.gaussian, found.mean
+        estimate = curvatures(p, faces)
+        return estimate.gaussian, estimate.mean
 
     contenders: dict[str, Contender] = {"ours": ours}
     if igl is not None:

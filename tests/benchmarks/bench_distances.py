@@ -177,9 +177,9 @@ def bare_rounds(start: np.ndarray, free: np.ndarray, h: float) -> Contender:
             asked.nonzero()
             asked.fill(False)
             left, right, below, above = (distances.take(at) for distances in beside)
-            found = eikonal_update(np.minimum(left, right), np.minimum(below, above), h)
-            falls = found < own.take(at)
-            own[at.compress(falls)] = found.compress(falls)
+            updated = eikonal_update(np.minimum(left, right), np.minimum(below, above), h)
+            falls = updated < own.take(at)
+            own[at.compress(falls)] = updated.compress(falls)
         return float("nan")
 
     return bare

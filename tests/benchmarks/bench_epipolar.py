@@ -140,7 +140,7 @@ def main() -> None:
 
     def ours(refined: bool = True) -> np.ndarray:
         Ts = essential_to_poses(essential_from_fundamental(fit_fundamental(x, y), K, L))
-        best = max(Ts, key=lambda one: before_both(midpoints(one, xn, yn), one).sum())
+        best = max(Ts, key=lambda T_tried: before_both(midpoints(T_tried, xn, yn), T_tried).sum())
         return refine_motion(best, x, y, K_first=K, K_second=L) if refined else best
 
     def by_poselib() -> np.ndarray:
@@ -153,8 +153,8 @@ def main() -> None:
             }
             for k in (K, L)
         ]
-        found = poselib.estimate_relative_pose(x, y, *cameras, {"max_epipolar_error": 2.0}, {})[0]
-        return motion(found.R, found.t)
+        solved = poselib.estimate_relative_pose(x, y, *cameras, {"max_epipolar_error": 2.0}, {})[0]
+        return motion(solved.R, solved.t)
 
     def by_cv2() -> np.ndarray:
         E, mask = cv2.findEssentialMat(xn, yn, np.eye(3), cv2.RANSAC, 0.999, 2.0 / 900)
@@ -166,10 +166,10 @@ def main() -> None:
     )
     compared("motion: eight points, refined", rounds, ours, peers=peers)
     for name, made in {"ours": ours, "ours, not refined": lambda: ours(False), **peers}.items():
-        found = made()
-        direction = np.degrees(angle_between(found[:3, 3], T[:3, 3]))
+        T_made = made()
+        direction = np.degrees(angle_between(T_made[:3, 3], T[:3, 3]))
         print(
-            f"    {name}: {degrees_between(found, T):.3f} degrees of rotation, {direction:.3f} of"
+            f"    {name}: {degrees_between(T_made, T):.3f} degrees of rotation, {direction:.3f} of"
             " direction off"
         )
     compared(

@@ -122,11 +122,11 @@ def described(name: str, rounds: int, p: np.ndarray, *, radius: float) -> None:
             "open3d": search.KDTreeSearchParamRadius(radius),
             "open3d, 100 at most": search.KDTreeSearchParamHybrid(radius, 100),
         }
-        peers = {said: lambda how=how: theirs(how) for said, how in ways.items()}
+        peers = {label: lambda how=how: theirs(how) for label, how in ways.items()}
     compared(f"FPFH, {name}", rounds, lambda: fpfh(p, n, radius), peers=peers)
-    for said, way in peers.items():
+    for label, way in peers.items():
         r = np.corrcoef(fpfh(p, n, radius).ravel(), way().ravel())[0, 1]
-        print(f"    correlation with {said}: {r:.4f}")
+        print(f"    correlation with {label}: {r:.4f}")
 
 
 def keypoints(rounds: int, p: np.ndarray, radius: float) -> None:

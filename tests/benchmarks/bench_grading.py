@@ -41,15 +41,15 @@ def main() -> None:
         results = classroom.grade_class(Path(folder) / "in", Path(folder) / "out")
         points = Counter()
         for result in results:
-            said = (
+            grade = (
                 "not graded"
                 if result["error"]
                 else f"{sum(r['points'] for r in result['reports']):g} points"
             )
-            points[kinds[result["student"]], said] += 1
+            points[kinds[result["student"]], grade] += 1
         print(f"a class of 200 in {time.perf_counter() - began:.0f} s:")
-        for (kind, said), count in sorted(points.items()):
-            print(f"  {count:3d} {kind:<7} {said}")
+        for (kind, grade), count in sorted(points.items()):
+            print(f"  {count:3d} {kind:<7} {grade}")
 
 
 if __name__ == "__main__":

@@ -54,10 +54,10 @@ def best(*tasks: Callable[[], Any] | None, repeat: int = 5) -> list[float]:
 
 
 def line(task: str, ours: float, peers: dict[str, float], *, floor: str = "") -> None:
-    there = {name: t for name, t in peers.items() if np.isfinite(t)}
-    peer = min(there, key=lambda name: there[name]) if there else ""
-    others = ", ".join(f"{name} {t:.1f}" for name, t in there.items()) or "none installed"
-    ratio = f"{ours / there[peer]:.2f}" if there else "-"
+    times = {name: t for name, t in peers.items() if np.isfinite(t)}
+    peer = min(times, key=lambda name: times[name]) if times else ""
+    others = ", ".join(f"{name} {t:.1f}" for name, t in times.items()) or "none installed"
+    ratio = f"{ours / times[peer]:.2f}" if times else "-"
     print(f"{task:<44} {ours:8.1f}   {others:<44} {ratio:>6}   {floor}")
 
 
@@ -185,8 +185,8 @@ def bench_icp(n: int, floor_whole: str) -> None:
 
 def floor_of(bare: float, peers: list[float]) -> str:
     """Return what ratio to the best peer the bare calls reach; nothing where no peer is there."""
-    there = [t for t in peers if np.isfinite(t)]
-    return f"{bare / min(there):.2f}" if there else ""
+    times = [t for t in peers if np.isfinite(t)]
+    return f"{bare / min(times):.2f}" if times else ""
 
 
 def with_open3d(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> Register:
@@ -217,7 +217,7 @@ def with_small_gicp(p_target: np.ndarray, p_source: np.ndarray) -> Register:
     tree = small_gicp.KdTree(clouds[0], num_threads=2)
 
     def register(gate: float, T_target_source: np.ndarray, stop: float, *, most: int) -> np.ndarray:
-        found = small_gicp.align(
+        result = small_gicp.align(
             *clouds,
             tree,
             T_target_source,
@@ -228,7 +228,7 @@ def with_small_gicp(p_target: np.ndarray, p_source: np.ndarray) -> Register:
             rotation_epsilon=stop,
             translation_epsilon=stop,
         )
-        return found.T_target_source
+        return result.T_target_source
 
     return register
 

@@ -82,8 +82,8 @@ def loss_in(xp: Any) -> Callable[[Any, Any], Any]:
         v = b - xp.sum(u * b, axis=1, keepdims=True) * u
         v = v / xp.sqrt(xp.sum(v * v, axis=1, keepdims=True))
         third = [u[:, i] * v[:, j] - u[:, j] * v[:, i] for i, j in ((1, 2), (2, 0), (0, 1))]
-        found = xp.stack([u, v, xp.stack(third, axis=1)], axis=2)
-        return xp.sum((found - R) ** 2) / BATCH
+        predicted = xp.stack([u, v, xp.stack(third, axis=1)], axis=2)
+        return xp.sum((predicted - R) ** 2) / BATCH
 
     return loss
 

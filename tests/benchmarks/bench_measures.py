@@ -57,7 +57,7 @@ def compare(
     own, value = least(ours, repeats)
     print(f"{name:44s} {'ours':22s} {own:9.1f} ms   value {value:.6g}", flush=True)
     times = []
-    for who, task in peers.items():
+    for label, task in peers.items():
         theirs, its = least(task, max(1, repeats // 2))
         times.append(theirs)
         off = (
@@ -65,7 +65,7 @@ def compare(
             if exact and abs(its - value) > 1e-6 * abs(value)
             else ""
         )
-        print(f"{'':44s} {who:22s} {theirs:9.1f} ms   ratio {own / theirs:.2f}{off}", flush=True)
+        print(f"{'':44s} {label:22s} {theirs:9.1f} ms   ratio {own / theirs:.2f}{off}", flush=True)
     if times:
         print(
             f"{'':44s} {'best':22s} {min(times):9.1f} ms   ratio {own / min(times):.2f}", flush=True

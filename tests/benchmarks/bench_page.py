@@ -83,12 +83,12 @@ def renderers() -> dict[int, float]:
     """Return the processor seconds of the browser's processes that run pages; its drawing is done
     by another.
     """
-    found = {}
-    for one in psutil.Process().children(recursive=True):
+    seconds = {}
+    for process in psutil.Process().children(recursive=True):
         with contextlib.suppress(psutil.Error):
-            if "--type=renderer" in one.cmdline():
-                found[one.pid] = sum(one.cpu_times()[:2])
-    return found
+            if "--type=renderer" in process.cmdline():
+                seconds[process.pid] = sum(process.cpu_times()[:2])
+    return seconds
 
 
 def main() -> None:
@@ -114,11 +114,11 @@ def main() -> None:
                 opened(chromium, address, draws=False)  # the server has run it from here on
                 still = [opened(chromium, address, draws=False) for _ in range(given.times)]
                 drawn = [opened(chromium, address, draws=True) for _ in range(given.times)]
-                said = {key: np.median([one[key] for one in still]) for key in still[0]}
-                said["drawn"] = np.median([one["scene"] for one in drawn])
+                medians = {key: np.median([visit[key] for visit in still]) for key in still[0]}
+                medians["drawn"] = np.median([visit["scene"] for visit in drawn])
                 print(
                     f"{name:16}"
-                    + "".join(f"{said[key]:9.0f}" for key in COLUMNS)
+                    + "".join(f"{medians[key]:9.0f}" for key in COLUMNS)
                     + f"   {os.getloadavg()[0]:.1f}",
                     flush=True,
                 )

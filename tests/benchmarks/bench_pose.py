@@ -60,7 +60,7 @@ def main() -> None:
 def three(rounds: int, cv2, poselib) -> None:
     """Compare P3P on 1,000 triples."""
     _, p, xy = triples(1000)
-    rays = [list(one) for one in unit_rays(xy)]
+    rays = [list(ray) for ray in unit_rays(xy)]
     pairs = list(zip(p, xy, strict=True))
     ways: dict[str, Contender] = {
         "ours, side by side": lambda: np.array(len(p3p(p, xy)[0])),
@@ -75,7 +75,7 @@ def three(rounds: int, cv2, poselib) -> None:
                 cv2.solveP3P(a[:, None], b[:, None].copy(), np.eye(3), None, cv2.SOLVEPNP_P3P)
                 for a, b in pairs
             ]
-            return np.array(sum(found[0] for found in solve))
+            return np.array(sum(result[0] for result in solve))
 
         ways["cv2 solveP3P"] = by_opencv
     if poselib:
@@ -86,7 +86,7 @@ def three(rounds: int, cv2, poselib) -> None:
         "P3P, 1,000 triples; last column: solutions",
         rounds,
         ways,
-        judged=lambda found: float(found),
+        judged=lambda count: float(count),
         per=1000,
     )
 
@@ -94,7 +94,7 @@ def three(rounds: int, cv2, poselib) -> None:
 def many(rounds: int, n: int, cv2) -> None:
     """Compare SQPnP on 60 pictures of n points."""
     views = [view(seed, n, sigma=PIXEL) for seed in range(60)]
-    p, xy = np.stack([one[1] for one in views]), np.stack([one[2] for one in views])
+    p, xy = np.stack([picture[1] for picture in views]), np.stack([picture[2] for picture in views])
     ways: dict[str, Contender] = {
         "ours, side by side": lambda: sqpnp(p, xy),
         "ours, one by one": lambda: np.stack([sqpnp(a, b) for a, b in zip(p, xy, strict=True)]),
@@ -117,7 +117,7 @@ def many(rounds: int, n: int, cv2) -> None:
 def by_control_points(rounds: int, n: int, cv2) -> None:
     """Compare EPnP on 60 pictures of n points."""
     views = [view(seed, n, sigma=PIXEL) for seed in range(60)]
-    p, xy = np.stack([one[1] for one in views]), np.stack([one[2] for one in views])
+    p, xy = np.stack([picture[1] for picture in views]), np.stack([picture[2] for picture in views])
     ways: dict[str, Contender] = {
         "ours, side by side": lambda: epnp(p, xy),
         "ours, one by one": lambda: np.stack([epnp(a, b) for a, b in zip(p, xy, strict=True)]),
@@ -138,7 +138,7 @@ def by_control_points(rounds: int, n: int, cv2) -> None:
 def planes(rounds: int, cv2) -> None:
     """Compare IPPE on 60 pictures of 20 points."""
     views = [view(seed, 20, sigma=PIXEL, flat=True) for seed in range(60)]
-    p, xy = np.stack([one[1] for one in views]), np.stack([one[2] for one in views])
+    p, xy = np.stack([picture[1] for picture in views]), np.stack([picture[2] for picture in views])
     ways: dict[str, Contender] = {
         "ours, side by side": lambda: planar_motions(p, xy)[:, 0],
         "ours, one by one": lambda: np.stack(
@@ -182,13 +182,13 @@ def among_outliers(rounds: int, outliers: float, cv2, *, poselib) -> None:
         bundle = {"max_reproj_error": 3.0, "success_prob": 0.99}
         ways["poselib"] = lambda: np.stack(
             [
-                motion(found.R, found.t)
+                motion(estimate.R, estimate.t)
                 for _, p, uv in views
-                for found in [poselib.estimate_absolute_pose(uv, p, camera, bundle, {})[0]]
+                for estimate in [poselib.estimate_absolute_pose(uv, p, camera, bundle, {})[0]]
             ]
         )
-    said = f"RANSAC, 10 pictures of 200 points, {100 * outliers:.0f} % outliers; degrees"
-    compare(said, rounds, ways, judged=lambda Ts: middle(Ts, views), per=10)
+    task = f"RANSAC, 10 pictures of 200 points, {100 * outliers:.0f} % outliers; degrees"
+    compare(task, rounds, ways, judged=lambda Ts: middle(Ts, views), per=10)
 
 
 def by_ransac(p: np.ndarray, uv: np.ndarray) -> np.ndarray:
@@ -208,7 +208,9 @@ def by_cv2(cv2, p: np.ndarray, xy: np.ndarray, *, flag: int) -> np.ndarray:
 
 def middle(Ts: np.ndarray, views: list) -> float:
     """Return the median rotation error, degrees."""
-    return float(np.median([degrees_between(T, one[0]) for T, one in zip(Ts, views, strict=True)]))
+    return float(
+        np.median([degrees_between(T, picture[0]) for T, picture in zip(Ts, views, strict=True)])
+    )
 
 
 def compare(
@@ -223,18 +225,18 @@ def compare(
     what came out.
     """
     least = dict.fromkeys(ways, np.inf)
-    found = {}
+    results = {}
     for _ in range(rounds):
         for name, way in ways.items():
             started = time.process_time()
-            found[name] = way()
+            results[name] = way()
             least[name] = min(least[name], 1e6 * (time.process_time() - started) / per)
     ours = least[next(iter(ways))]
     print(f"\n{task}")
     print(f"  {'':22}{'µs each':>10}{'ours/it':>10}{'':>12}")
     for name in ways:
         ratio = "" if name.startswith("ours") else f"{ours / least[name]:.2f}"
-        print(f"  {name:22}{least[name]:10.1f}{ratio:>10}{judged(found[name]):12.4g}")
+        print(f"  {name:22}{least[name]:10.1f}{ratio:>10}{judged(results[name]):12.4g}")
     for name in ("cv2", "poselib"):
         if not optional(name):
             print(f"  {name} is not installed: left out")

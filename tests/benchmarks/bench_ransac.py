@@ -213,7 +213,7 @@ def match_contenders(model: Model, distance: float) -> dict[str, Contender]:
         kind = transform.ProjectiveTransform if flat else transform.FundamentalMatrixTransform
 
         def by_skimage(p: np.ndarray) -> np.ndarray | None:
-            found, _ = measure.ransac(
+            fitted, _ = measure.ransac(
                 (p[:, :2], p[:, 2:]),
                 kind,
                 min_samples=4 if flat else 8,
@@ -222,7 +222,7 @@ def match_contenders(model: Model, distance: float) -> dict[str, Contender]:
                 rng=0,
                 stop_probability=0.99,
             )
-            return found.params if found is not None else None
+            return fitted.params if fitted is not None else None
 
         contenders["skimage"] = by_skimage
     return contenders

@@ -54,13 +54,13 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     rounds = parser.parse_args().rounds
     for name, task in tasks().items():
-        for what, contenders in (("paths", semi_global_contenders), ("blocks", block_contenders)):
+        for method, contenders in (("paths", semi_global_contenders), ("blocks", block_contenders)):
             alone = {
-                row: functools.partial(run, task, paths=what == "paths")
+                row: functools.partial(run, task, paths=method == "paths")
                 for row, run in (("unseen", unseen), ("floor", bare))
             }
             compare(
-                f"{what}, {name}", task, contenders(task.disparities), rounds=rounds, alone=alone
+                f"{method}, {name}", task, contenders(task.disparities), rounds=rounds, alone=alone
             )
     print(
         "\na floor: a comparison at every shift, the additions and minima of eq. 13, line by line,"
@@ -75,11 +75,11 @@ def tasks() -> dict[str, Task]:
     camera = StereoCamera(150.0, 79.5, 59.5, 0.1)
     views = synthetic_views("spheres", camera, (160, 120), rng=np.random.default_rng(0))
     balls = views.exposed(4.0)
-    found = {
+    by_name = {
         "balls 160 x 120, 32": task_of(balls, 32),
         "motorcycle 185 x 125, 32": task_of(shrunk(motorcycle_pair(), 4), 32),
     }
-    return found | (
+    return by_name | (
         {"cones 225 x 187, 32": task_of(shrunk(cones(), 2), 32)} if CONES.is_dir() else {}
     )
 
@@ -99,8 +99,8 @@ def cones() -> StereoPair:
     left, right = (read_image(CONES / name) for name in ("im2.png", "im6.png"))
     truth, other = (read_image(CONES / name) / 4.0 for name in ("disp2.pgm", "disp6.pgm"))
     partner = np.rint(np.arange(truth.shape[1]) - truth).astype(int)
-    there = np.take_along_axis(other, np.clip(partner, 0, None), axis=1)
-    visible = (truth > 0) & (partner >= 0) & (there > 0) & (np.abs(there - truth) <= 1)
+    counterpart = np.take_along_axis(other, np.clip(partner, 0, None), axis=1)
+    visible = (truth > 0) & (partner >= 0) & (counterpart > 0) & (np.abs(counterpart - truth) <= 1)
     return StereoPair(left, right, StereoCamera(1.0, 0.0, 0.0, 1.0), truth, visible)
 
 
@@ -175,7 +175,7 @@ def unseen(task: Task, *, paths: bool) -> None:
 
 def semi_global_contenders(disparities: int) -> dict[str, Matcher]:
     """Return ours and OpenCV's two, at the penalties of its documentation for 5 x 5 blocks."""
-    found: dict[str, Matcher] = {"ours": ours(disparities, BLOCK, paths=True)}
+    contenders: dict[str, Matcher] = {"ours": ours(disparities, BLOCK, paths=True)}
     cv2 = peer()
     if cv2 is not None:
         for name, mode in (
@@ -185,17 +185,17 @@ def semi_global_contenders(disparities: int) -> dict[str, Matcher]:
             matcher = cv2.StereoSGBM_create(
                 0, disparities, 5, P1=8 * 25, P2=32 * 25, disp12MaxDiff=1, mode=mode
             )
-            found[name] = as_floats(matcher)
-    return found
+            contenders[name] = as_floats(matcher)
+    return contenders
 
 
 def block_contenders(disparities: int) -> dict[str, Matcher]:
     """Return ours and OpenCV's block matching, whose windows are 5 pixels wide at least."""
-    found: dict[str, Matcher] = {"ours": ours(disparities, 5, paths=False)}
+    contenders: dict[str, Matcher] = {"ours": ours(disparities, 5, paths=False)}
     cv2 = peer()
     if cv2 is not None:
-        found["cv2 StereoBM"] = as_floats(cv2.StereoBM_create(disparities, 5))
-    return found
+        contenders["cv2 StereoBM"] = as_floats(cv2.StereoBM_create(disparities, 5))
+    return contenders
 
 
 def peer() -> Any:
@@ -229,32 +229,32 @@ def compare(
     """Run all contenders, taking turns, and print times, errors, ratios to the fastest peer, and
     what ratio the parts that stand alone reach.
     """
-    times: dict[str, list[float]] = {who: [] for who in (*contenders, *alone)}
+    times: dict[str, list[float]] = {row: [] for row in (*contenders, *alone)}
     maps = {}
     for _ in range(rounds):
-        for who, matcher in contenders.items():
+        for row, matcher in contenders.items():
             started = time.process_time()
-            maps[who] = matcher(task.left, task.right)
-            times[who].append(1e3 * (time.process_time() - started))
-        for who, part in alone.items():
+            maps[row] = matcher(task.left, task.right)
+            times[row].append(1e3 * (time.process_time() - started))
+        for row, part in alone.items():
             started = time.process_time()
             part()
-            times[who].append(1e3 * (time.process_time() - started))
-    least = {who: min(taken) for who, taken in times.items()}
+            times[row].append(1e3 * (time.process_time() - started))
+    least = {row: min(taken) for row, taken in times.items()}
     *_, last = contenders  # OpenCV's eight paths, or blocks
     print(f"\n{name}")
     print(f"  {'':18}{'ms':>8}{'ours over it':>14}{'bad 1 px':>10}{'bad 2 px':>10}{'none':>8}")
-    for who, found in maps.items():
-        off = np.abs(found - task.truth)[task.visible]
+    for row, disparities in maps.items():
+        off = np.abs(disparities - task.truth)[task.visible]
         known = np.isfinite(off)
         bad = [100 * float((off[known] > limit).mean()) for limit in (1, 2)]
-        ratio = least["ours"] / least[who]
+        ratio = least["ours"] / least[row]
         print(
-            f"  {who:18}{least[who]:8.1f}{ratio:14.2f}{bad[0]:9.2f}%{bad[1]:9.2f}%{100 * (~known).mean():7.2f}%"  # noqa: E501
+            f"  {row:18}{least[row]:8.1f}{ratio:14.2f}{bad[0]:9.2f}%{bad[1]:9.2f}%{100 * (~known).mean():7.2f}%"  # noqa: E501
         )
     if len(contenders) > 1:
-        for who in alone:
-            print(f"  {who:18}{least[who]:8.1f}{least[who] / least[last]:14.2f}")
+        for row in alone:
+            print(f"  {row:18}{least[row]:8.1f}{least[row] / least[last]:14.2f}")
 
 
 if __name__ == "__main__":

@@ -52,16 +52,16 @@ MOVED = """async ([index, moves]) => {
 def moved(chromium, address: str, moves: int) -> dict[str, list[float]]:
     """Return of each number of a story the milliseconds that its moves took."""
     page = chromium.new_page(viewport={"width": 1440, "height": 900})
-    found: dict[str, list[float]] = {}
+    times: dict[str, list[float]] = {}
     try:
         page.goto(address)
         page.wait_for_function("storyStage.place && storyStage.arrived === null && page.step()")
         for index in range(page.evaluate("storyWords.numbers.length")):
             name, taken = page.evaluate(MOVED, [index, moves])
-            found.setdefault(name, []).extend(taken)
+            times.setdefault(name, []).extend(taken)
     finally:
         page.context.close()
-    return found
+    return times
 
 
 @contextlib.contextmanager
@@ -113,8 +113,10 @@ def main() -> None:
 
 def show(title: str, live: list[float], site: list[float]) -> None:
     """Print a row."""
-    columns = [np.percentile(one, at) if one else np.nan for one in (live, site) for at in (50, 95)]
-    row = "".join(f"{one:7.0f}" for one in columns)
+    columns = [
+        np.percentile(times, at) if times else np.nan for times in (live, site) for at in (50, 95)
+    ]
+    row = "".join(f"{column:7.0f}" for column in columns)
     print(f"{title}{row}{columns[0] / columns[2]:7.1f}", flush=True)
 
 

@@ -73,7 +73,7 @@ def mutants(path: Path, root: Path = ROOT) -> list[Mutant]:
     starts = [0]
     for line in data.splitlines(keepends=True):
         starts.append(starts[-1] + len(line))
-    found = []
+    all_mutants = []
     for node, new, operator, function in _places(ast.parse(data)):
         start = starts[node.lineno - 1] + node.col_offset
         end = starts[node.end_lineno - 1] + node.end_col_offset
@@ -82,7 +82,7 @@ def mutants(path: Path, root: Path = ROOT) -> list[Mutant]:
         if " ".join(text.split()).strip("()") == old.strip("()"):
             continue
         change = f"{_short(old)} → {_short(' '.join(text.split()))}"
-        found.append(
+        all_mutants.append(
             Mutant(
                 module=path.relative_to(root).as_posix(),
                 line=node.lineno,
@@ -98,10 +98,10 @@ def mutants(path: Path, root: Path = ROOT) -> list[Mutant]:
             )
         )
     seen = Counter[str]()
-    for k, mutant in enumerate(sorted(found)):
+    for k, mutant in enumerate(sorted(all_mutants)):
         seen[mutant.name] += 1
-        found[k] = replace(mutant, nth=seen[mutant.name])
-    return found
+        all_mutants[k] = replace(mutant, nth=seen[mutant.name])
+    return all_mutants
 
 
 def parses(mutant: Mutant) -> bool:
@@ -214,13 +214,13 @@ def _test_files(root: Path) -> list[Path]:
 @functools.cache
 def _imported(test: Path) -> frozenset[tuple[str, str]]:
     """Return what a file imports: (module, name), the name being empty for `import module`."""
-    found = set()
+    imports = set()
     for node in ast.walk(ast.parse(test.read_bytes())):
         if isinstance(node, ast.Import):
-            found |= {(alias.name, "") for alias in node.names}
+            imports |= {(alias.name, "") for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
-            found |= {(node.module, alias.name) for alias in node.names}
-    return frozenset(found)
+            imports |= {(node.module, alias.name) for alias in node.names}
+    return frozenset(imports)
 
 
 def _imports(test: Path, path: Path, root: Path) -> bool:

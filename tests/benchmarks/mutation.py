@@ -80,7 +80,9 @@ def main() -> int:
     given = parser.parse_args()
     drawn = _drawn(given)
     known = _read(given.write)
-    results = {one.name: known[one.name] for one in drawn if one.name in known}
+    results = {
+        candidate.name: known[candidate.name] for candidate in drawn if candidate.name in known
+    }
     with tempfile.TemporaryDirectory(prefix="mutation-") as name:
         house = House(Path(name))
         for mutant in drawn:
@@ -109,15 +111,21 @@ def _drawn(given: argparse.Namespace) -> list[Mutant]:
     ]
     if given.named:
         return [
-            one for one in everything if one.name.startswith(tuple(given.named)) and parses(one)
+            candidate
+            for candidate in everything
+            if candidate.name.startswith(tuple(given.named)) and parses(candidate)
         ]
     if given.again:
         survivors = {
             name for name, result in _read(given.again).items() if result["fate"] == "survived"
         }
-        return [one for one in everything if one.name in survivors and parses(one)]
+        return [
+            candidate
+            for candidate in everything
+            if candidate.name in survivors and parses(candidate)
+        ]
     everything.sort(
-        key=lambda one: hashlib.sha256(f"{given.seed} {one.name}".encode()).digest(),
+        key=lambda candidate: hashlib.sha256(f"{given.seed} {candidate.name}".encode()).digest(),
     )
     taken = dict[str, Mutant]()
     for mutant in everything:
@@ -140,7 +148,8 @@ def _read(path: Path | None) -> dict[str, dict]:
     if path is None or not path.exists():
         return {}
     return {
-        one["name"]: one for one in map(json.loads, path.read_text(encoding="utf-8").splitlines())
+        result["name"]: result
+        for result in map(json.loads, path.read_text(encoding="utf-8").splitlines())
     }
 
 
@@ -155,10 +164,10 @@ def equivalents() -> set[str]:
 def report(results: dict[str, dict]) -> str:
     """Return how many died, by operator, and which survived."""
     same = equivalents()
-    counted = {name: one for name, one in results.items() if name not in same}
-    survived = [one for one in counted.values() if one["fate"] == "survived"]
-    operators = Counter(one["operator"] for one in counted.values())
-    ends = Counter(one["operator"] for one in survived)
+    counted = {name: result for name, result in results.items() if name not in same}
+    survived = [result for result in counted.values() if result["fate"] == "survived"]
+    operators = Counter(result["operator"] for result in counted.values())
+    ends = Counter(result["operator"] for result in survived)
     killed = len(counted) - len(survived)
     lines = [f"{killed} of {len(counted)} killed ({100 * killed / max(len(counted), 1):.0f} %)"]
     lines += [f"{len(results) - len(counted)} equivalent, not counted"]
@@ -170,7 +179,7 @@ def report(results: dict[str, dict]) -> str:
         [
             *lines,
             "survived:",
-            *(f"  {one['module']}:{one['line']} {one['name']}" for one in survived),
+            *(f"  {result['module']}:{result['line']} {result['name']}" for result in survived),
         ]
     )
 
@@ -214,9 +223,11 @@ class House:
         ran: list[str] = []
         end: int | None = 0
         for files in own_tests(ROOT / mutant.module):
-            known += [one for file in files for one in self.baseline(file)]
-            there = [one for one in known if changed & set(one["lines"].get(mutant.module, []))]
-            chosen, seconds = _chosen([one for one in there if one["test"] not in ran])
+            known += [test for file in files for test in self.baseline(file)]
+            reaching = [
+                test for test in known if changed & set(test["lines"].get(mutant.module, []))
+            ]
+            chosen, seconds = _chosen([test for test in reaching if test["test"] not in ran])
             end = self.end_with(mutant, chosen, seconds)
             ran += chosen
             if end != 0:
@@ -256,11 +267,11 @@ class House:
         if file not in self.known:
             lines = self.folder / f"{len(self.known)}.json"
             self.run([file], BASELINE_FOR, Lines(self.tracing, lines))
-            found = json.loads(lines.read_text()) if lines.exists() else []
-            self.known[file] = [one for one in found if one["passed"]]
-            if not found:
+            tests = json.loads(lines.read_text()) if lines.exists() else []
+            self.known[file] = [test for test in tests if test["passed"]]
+            if not tests:
                 print((self.folder / "said.txt").read_text()[-2000:], flush=True)
-            print(f"# {file}: {len(self.known[file])} of {len(found)} tests pass", flush=True)
+            print(f"# {file}: {len(self.known[file])} of {len(tests)} tests pass", flush=True)
         return self.known[file]
 
     def run(self, tests: list[str], seconds: float, *plugins: object) -> int | None:
@@ -316,10 +327,10 @@ def _chosen(tests: list[dict]) -> tuple[list[str], float]:
     """Return tests and their seconds together: short ones first, the more the fewer of a kind."""
     ranked: list[tuple[float, float, str]] = []
     turn = Counter[str]()
-    for one in sorted(tests, key=lambda one: one["seconds"]):
-        function = one["test"].partition("[")[0]
+    for entry in sorted(tests, key=lambda entry: entry["seconds"]):
+        function = entry["test"].partition("[")[0]
         turn[function] += 1
-        ranked.append((turn[function] * one["seconds"], one["seconds"], one["test"]))
+        ranked.append((turn[function] * entry["seconds"], entry["seconds"], entry["test"]))
     chosen: list[str] = []
     together = 0.0
     for _, seconds, test in sorted(ranked):
@@ -357,13 +368,13 @@ class Lines:
 
     def pytest_sessionfinish(self) -> None:
         sys.settrace(None)
-        for one in self.tests.values():
-            lines = one.get("lines", {})
+        for test in self.tests.values():
+            lines = test.get("lines", {})
             for part in (self.common, self.tracing.once):
                 lines = {
                     name: lines.get(name, set()) | part.get(name, set()) for name in lines | part
                 }
-            one["lines"] = {name: sorted(numbers) for name, numbers in lines.items()}
+            test["lines"] = {name: sorted(numbers) for name, numbers in lines.items()}
         self.file.write_text(json.dumps(list(self.tests.values())))
 
 

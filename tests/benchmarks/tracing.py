@@ -78,8 +78,8 @@ class Tracing:
         seen: bytearray = self.names["seen"]  # type: ignore[assignment]
         data = seen[:]
         seen[:] = bytes(self.size)
-        found = {name: data[lines] for name, lines in self.lines.items() if any(data[lines])}
-        for name, lines in found.items():
-            once = {k for k, one in enumerate(lines) if one == self.names["ONCE"]}
+        marked = {name: data[lines] for name, lines in self.lines.items() if any(data[lines])}
+        for name, lines in marked.items():
+            once = {k for k, mark in enumerate(lines) if mark == self.names["ONCE"]}
             self.once[name] = self.once.get(name, set()) | once
-        return {name: {k for k, one in enumerate(lines) if one} for name, lines in found.items()}
+        return {name: {k for k, mark in enumerate(lines) if mark} for name, lines in marked.items()}

@@ -128,39 +128,39 @@ def grade(tree: Path, handed: Path, out: Path) -> None:
         workbench(tree, "grade", str(folder), *given)
 
 
-def compared(before: Path, now: Path) -> dict[str, list[tuple[str, float]]]:
+def compared(before: Path, after: Path) -> dict[str, list[tuple[str, float]]]:
     """Return by lesson how far apart the files are that it has in two sites; infinite where one is
     missing or has other words.
     """
     names = {
         str(file.relative_to(site))
-        for site in (before, now)
+        for site in (before, after)
         for file in site.rglob("*")
         if file.is_file() and file.name != MANIFEST
     }
     by_lesson: dict[str, list[tuple[str, float]]] = defaultdict(list)
     for name in sorted(names):
         lesson = name.partition("/")[0] if name.count("/") else "the site"
-        by_lesson[lesson].append((name, files_apart(before / name, now / name)))
+        by_lesson[lesson].append((name, files_apart(before / name, after / name)))
     return by_lesson
 
 
-def compared_grades(before: Path, now: Path) -> list[tuple[str, float]]:
+def compared_grades(before: Path, after: Path) -> list[tuple[str, float]]:
     """Return how far apart the tables and reports are."""
     names = {
         str(file.relative_to(folder))
-        for folder in (before, now)
+        for folder in (before, after)
         for file in folder.rglob("*")
         if file.suffix in (".csv", ".json")
     }
-    return [(name, files_apart(before / name, now / name)) for name in sorted(names)]
+    return [(name, files_apart(before / name, after / name)) for name in sorted(names)]
 
 
-def files_apart(before: Path, now: Path) -> float:
+def files_apart(before: Path, after: Path) -> float:
     """Return how far two files are apart; infinite where one is missing."""
-    if not (before.is_file() and now.is_file()):
+    if not (before.is_file() and after.is_file()):
         return math.inf
-    return apart(content(before), content(now))
+    return apart(content(before), content(after))
 
 
 def content(file: Path) -> Any:
@@ -223,33 +223,33 @@ def scenes(text: str) -> Iterator[list[Any]]:
         yield list(nodes.items())
 
 
-def apart(before: Any, now: Any) -> float:
+def apart(before: Any, after: Any) -> float:
     """Return how far two values are apart; infinite where they differ in more than numbers."""
-    if isinstance(before, np.ndarray) and isinstance(now, np.ndarray):
-        return arrays_apart(before, now)
-    if isinstance(before, str) and isinstance(now, str):
-        return 0.0 if before == now else texts_apart(before, now)
-    if isinstance(before, Mapping) and isinstance(now, Mapping):
-        if list(before) != list(now):
+    if isinstance(before, np.ndarray) and isinstance(after, np.ndarray):
+        return arrays_apart(before, after)
+    if isinstance(before, str) and isinstance(after, str):
+        return 0.0 if before == after else texts_apart(before, after)
+    if isinstance(before, Mapping) and isinstance(after, Mapping):
+        if list(before) != list(after):
             return math.inf
-        return max((apart(before[name], now[name]) for name in before), default=0.0)
-    if isinstance(before, list | tuple) and isinstance(now, list | tuple):
-        if len(before) != len(now):
+        return max((apart(before[name], after[name]) for name in before), default=0.0)
+    if isinstance(before, list | tuple) and isinstance(after, list | tuple):
+        if len(before) != len(after):
             return math.inf
-        return max(map(apart, before, now), default=0.0)
-    if isinstance(before, int | float) and isinstance(now, int | float):
-        return arrays_apart(np.array(float(before)), np.array(float(now)))
-    return 0.0 if before == now else math.inf
+        return max(map(apart, before, after), default=0.0)
+    if isinstance(before, int | float) and isinstance(after, int | float):
+        return arrays_apart(np.array(float(before)), np.array(float(after)))
+    return 0.0 if before == after else math.inf
 
 
-def arrays_apart(before: np.ndarray, now: np.ndarray) -> float:
+def arrays_apart(before: np.ndarray, after: np.ndarray) -> float:
     """Return how far two arrays are apart; what is not finite must be the same."""
-    if before.dtype != now.dtype or before.shape != now.shape:
+    if before.dtype != after.dtype or before.shape != after.shape:
         return math.inf
-    if before.tobytes() == now.tobytes():
+    if before.tobytes() == after.tobytes():
         return 0.0
     a = before.astype(float)
-    b = now.astype(float)
+    b = after.astype(float)
     finite = np.isfinite(a) & np.isfinite(b)
     if not np.array_equal(a[~finite], b[~finite], equal_nan=True):
         return math.inf
@@ -257,12 +257,12 @@ def arrays_apart(before: np.ndarray, now: np.ndarray) -> float:
     return float(np.max(np.abs(a - b) / np.maximum(1, np.abs(a)), initial=0))
 
 
-def texts_apart(before: str, now: str) -> float:
+def texts_apart(before: str, after: str) -> float:
     """Return how far the numbers of two texts are apart; infinite where the words differ."""
-    if NUMBER.split(before) != NUMBER.split(now):
+    if NUMBER.split(before) != NUMBER.split(after):
         return math.inf
     numbers = [
-        np.array([number_of(word) for word in NUMBER.findall(text)]) for text in (before, now)
+        np.array([number_of(word) for word in NUMBER.findall(text)]) for text in (before, after)
     ]
     return arrays_apart(*numbers)
 

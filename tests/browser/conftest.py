@@ -29,7 +29,7 @@ def visit(chromium, server) -> Iterator[Callable[..., Visit]]:
         return visits[-1]
 
     yield opened
-    for one in visits:
-        one.page.context.close()
-    errors = [error for one in visits for error in one.errors]
+    for visitor in visits:
+        visitor.page.context.close()
+    errors = [error for visitor in visits for error in visitor.errors]
     assert errors == []

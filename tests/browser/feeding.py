@@ -59,9 +59,9 @@ class Fed:
 
     def __call__(self, script: str, argument: Any = None) -> Any:
         """Return what a function of the page returns; an error in the page fails the test."""
-        found = self.page.evaluate(script, argument)
+        value = self.page.evaluate(script, argument)
         assert self.errors == []
-        return found
+        return value
 
     def close(self) -> None:
         """Close the page."""

@@ -42,9 +42,13 @@ def another_point(home: Home, path: str, turn: int) -> np.ndarray:
     session = student(home).session
     look = None if session is None else session.look()
     assert look is not None
-    one: Any = look.scene[path]
-    T = np.eye(4) if one.T_world_object is None else one.T_world_object
-    p = np.array([[0.23, 0.1, 0.0]]) * (one.width or 1.0) if isinstance(one, Picture) else one.p
+    thing: Any = look.scene[path]
+    T = np.eye(4) if thing.T_world_object is None else thing.T_world_object
+    p = (
+        np.array([[0.23, 0.1, 0.0]]) * (thing.width or 1.0)
+        if isinstance(thing, Picture)
+        else thing.p
+    )
     places = on_screen(home, p[:200] @ T[:3, :3].T + T[:3, 3])
     box = home.find("#scene").bounding_box()
     middle = np.array([box["x"] + 0.5 * box["width"], box["y"] + 0.55 * box["height"]])

@@ -199,11 +199,11 @@ def few(lesson: Lesson, folder: Path) -> Lesson:
     first = linked(lesson) or next((preset.name for preset in lesson.presets), None)
     kept = {"default", "this", "", first}
     page = folder / "page.md"
-    text = LINKED.sub(lambda found: found[0] if found[2] in kept else found[1], lesson.text())
+    text = LINKED.sub(lambda match: match[0] if match[2] in kept else match[1], lesson.text())
     if has_story(lesson):  # whose scenes name runs that are left out here: its workbench alone
         text = f"# {lesson.title}\n\n{lesson.summary} [Look](run:{first or 'default'}).\n"
     question = asked(lesson).name if lesson.questions else ""
-    page.write_text(ASKED.sub(lambda found: found[0] if found[1] == question else "", text))
+    page.write_text(ASKED.sub(lambda match: match[0] if match[1] == question else "", text))
     sweeps = ()
     if lesson.sweeps:
         sweep = lesson.sweeps[0]
@@ -221,11 +221,11 @@ def asked(lesson: Lesson) -> Question:
     """Return the question that needs the fewest runs besides the default and the preset that is
     linked.
     """
-    there = [
+    kept = [
         lesson.params(),
         *(preset.params for preset in lesson.presets if preset.name == linked(lesson)),
     ]
-    return min(lesson.questions, key=lambda question: question.params not in there)
+    return min(lesson.questions, key=lambda question: question.params not in kept)
 
 
 def linked(lesson: Lesson) -> str | None:
@@ -233,7 +233,7 @@ def linked(lesson: Lesson) -> str | None:
     if has_story(lesson):  # its links move the stage of the story
         return None
     names = {preset.name for preset in lesson.presets}
-    return next((found[2] for found in LINKED.finditer(lesson.text()) if found[2] in names), None)
+    return next((match[2] for match in LINKED.finditer(lesson.text()) if match[2] in names), None)
 
 
 def own_end(run: Timeline) -> int:

@@ -92,10 +92,10 @@ def test_the_page_says_where_a_lesson_fails_and_goes_on(chromium, monkeypatch, c
     finally:
         page.close()
         server.stop()
-    said = capsys.readouterr().err
-    assert said.count("workbench: lesson broken") == 4
-    assert said.count("KeyError: 'points'") >= 2  # the traceback, and the line
-    assert said.count("Traceback (most recent call last)") >= 4
+    stderr = capsys.readouterr().err
+    assert stderr.count("workbench: lesson broken") == 4
+    assert stderr.count("KeyError: 'points'") >= 2  # the traceback, and the line
+    assert stderr.count("Traceback (most recent call last)") >= 4
 
 
 def test_a_page_that_cannot_be_read_is_said_in_its_place_and_the_run_plays(

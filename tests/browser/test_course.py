@@ -59,12 +59,12 @@ def until(me: Visit, holds, why: str) -> None:
 def test_a_lesson_is_done_when_all_its_questions_are_answered_in_this_browser(visit):
     lesson = catalog()["fitting"]
     me = visit(f"?lesson={lesson.name}")
-    said = me.page.locator("form.question output")
+    outputs = me.page.locator("form.question output")
     count = len(lesson.questions)
     for answered in (1, count):
         for k in range(answered):
             me.page.get_by_role("button", name="Skip and show me").nth(k).click()
-            said.nth(k).get_by_text("The answer: ").wait_for()
+            outputs.nth(k).get_by_text("The answer: ").wait_for()
         me.go("?course")
         done = f"{answered} of {count} questions"
         me.page.locator(f"[data-card={lesson.name}] .done", has_text=done).wait_for()
@@ -76,11 +76,11 @@ def test_a_lesson_is_done_when_all_its_questions_are_answered_in_this_browser(vi
 
 def test_two_browsers_have_a_place_each(visit):
     run = Timeline(catalog()["icp"], catalog()["icp"].params()).complete()
-    one, two = visit("?lesson=icp&step=1"), visit("?lesson=icp&step=3")
-    one.says(run[1].caption.text)
+    me, two = visit("?lesson=icp&step=1"), visit("?lesson=icp&step=3")
+    me.says(run[1].caption.text)
     two.says(run[3].caption.text)
-    one.act("last")
-    one.says(run[own_end(run)].caption.text)
+    me.act("last")
+    me.says(run[own_end(run)].caption.text)
     two.says(run[3].caption.text)
 
 

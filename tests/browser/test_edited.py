@@ -66,7 +66,7 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
         me.page.locator("#notice").wait_for(state="hidden")
         me.says("Step of Gauss-Newton 2 gives radius 1.045 m")
         me.page.get_by_role("button", name="Answer").first.wait_for()
-        for one in (me, other, late):
-            one.page.close()  # a page whose server is gone asks for it
+        for visitor in (me, other, late):
+            visitor.page.close()  # a page whose server is gone asks for it
     finally:
         server.stop()

@@ -87,17 +87,17 @@ def plain(fed) -> None:
 def test_a_client_has_of_a_scene_what_its_nodes_say(fed, k):
     reader = Reader()
     wanted = reader.nodes(reader.read(PageWire(Maker()).step({}, ALL[k], VIEW))["nodes"])
-    found = fed(
+    reply = fed(
         "async (k) => { sceneView.step(scenes[k].nodes, 0); await settled(); return [seen(),"
         " client.wrong]; }",
         k,
     )
-    assert found[1] == []
+    assert reply[1] == []
     words = {name: node for name, node in wanted.items() if node["type"] == "Label"}
-    there = {name for name, node in wanted.items() if node.get("visible", True)} - words.keys()
-    assert found[0].keys() == there | {f"word {name}" for name in words}
+    visible = {name for name, node in wanted.items() if node.get("visible", True)} - words.keys()
+    assert reply[0].keys() == visible | {f"word {name}" for name in words}
     poses = {name: np.array(node["pose"]) for name, node in wanted.items()}
-    for key, node in found[0].items():
+    for key, node in reply[0].items():
         name = key.removeprefix("word ")
         if "word" in node:
             assert node["word"] == wanted[name]["props"]["text"]
@@ -180,15 +180,18 @@ MESSAGES = """([i, j, how]) => {
 def test_what_only_moves_is_sent_as_poses_and_what_stays_is_not_sent(fed, by):
     before = len(ALL)
     after = len(ALL) + 1
-    said = fed(MESSAGES, [before, after, by])
-    assert {type_ for type_, name in said if name == "/scene/cloud"} == {
+    messages = fed(MESSAGES, [before, after, by])
+    assert {type_ for type_, name in messages if name == "/scene/cloud"} == {
         "SetOrientationMessage",
         "SetPositionMessage",
     }
-    assert not [name for _, name in said if name not in ("/scene/cloud", "/scene/lines")]
-    assert next(type_ for type_, name in said if name == "/scene/lines") == "SceneNodeUpdateMessage"
+    assert not [name for _, name in messages if name not in ("/scene/cloud", "/scene/lines")]
+    assert (
+        next(type_ for type_, name in messages if name == "/scene/lines")
+        == "SceneNodeUpdateMessage"
+    )
     assert fed(MESSAGES, [after, after, by]) == []
-    copy = fed.add([{path: replace(one) for path, one in AFTER.items()}])  # type: ignore[type-var]
+    copy = fed.add([{path: replace(thing) for path, thing in AFTER.items()}])  # type: ignore[type-var]
     assert fed(MESSAGES, [after, copy[0], by]) == []
 
 
@@ -204,9 +207,9 @@ def test_another_number_of_points_is_another_node_and_as_many_are_changed_in_pla
         if isinstance(thing, Points)
         else replace(thing, ends=2 * thing.ends)
     )
-    one, other, alike = fed.add([{"n": thing}, {"n": many}, {"n": same}])
+    original, other, alike = fed.add([{"n": thing}, {"n": many}, {"n": same}])
     kinds = [
-        {kind for kind, _ in fed(MESSAGES, [one, k, 0]) if not kind.startswith("Set")}
+        {kind for kind, _ in fed(MESSAGES, [original, k, 0]) if not kind.startswith("Set")}
         for k in (other, alike)
     ]
     assert kinds == [
@@ -251,8 +254,11 @@ GLIDED = """([i, j, by, parts]) => {
 @pytest.mark.parametrize("by", [1, -1])
 def test_a_step_beside_is_gone_to_evenly_and_ends_exactly_where_it_says(fed, by):
     parts = [0.2, 0.5, 0.8, 1.0]
-    found, waiting = fed(GLIDED, [len(ALL), len(ALL) + 1, by, parts])
-    clouds, lines = np.array([one[0] for one in found]), np.array([one[1] for one in found])
+    moments, waiting = fed(GLIDED, [len(ALL), len(ALL) + 1, by, parts])
+    clouds, lines = (
+        np.array([moment[0] for moment in moments]),
+        np.array([moment[1] for moment in moments]),
+    )
     assert waiting == 0
     assert list(clouds[-1]) == list(scenes_pose(AFTER))
     np.testing.assert_allclose(clouds[0], [1, 0, 0, 0, 0, 0, 0])
@@ -281,24 +287,26 @@ def test_a_turn_takes_the_shorter_way(fed):
         " sceneView.step(scenes[j].nodes, 1); tick(125); }"
     )
     fed(walk, [first, second])
-    found = Rotation.from_quat(fed("() => client.seen()['/scene/cloud'].wxyz"), scalar_first=True)
-    np.testing.assert_allclose(found.as_rotvec(degrees=True), (0, 0, -25), atol=1e-6)
+    rotation = Rotation.from_quat(
+        fed("() => client.seen()['/scene/cloud'].wxyz"), scalar_first=True
+    )
+    np.testing.assert_allclose(rotation.as_rotvec(degrees=True), (0, 0, -25), atol=1e-6)
 
 
 @pytest.mark.parametrize("by", [0, 2, -3])
 def test_a_jump_goes_nowhere_between(fed, by):
-    found, waiting = fed(GLIDED, [len(ALL), len(ALL) + 1, by, [0.5]])
-    assert found[0][0] == found[1][0] == list(scenes_pose(AFTER))
+    moments, waiting = fed(GLIDED, [len(ALL), len(ALL) + 1, by, [0.5]])
+    assert moments[0][0] == moments[1][0] == list(scenes_pose(AFTER))
     assert waiting == 0
 
 
 def test_who_wants_no_motion_sees_none(fed):
     fed.page.emulate_media(reduced_motion="reduce")
     try:
-        found, _ = fed(GLIDED, [len(ALL), len(ALL) + 1, 1, [0.5]])
+        moments, _ = fed(GLIDED, [len(ALL), len(ALL) + 1, 1, [0.5]])
     finally:
         fed.page.emulate_media(reduced_motion="no-preference")
-    assert found[0][0] == list(scenes_pose(AFTER))
+    assert moments[0][0] == list(scenes_pose(AFTER))
 
 
 def test_who_goes_on_before_a_glide_ends_starts_from_where_it_is(fed):

@@ -91,8 +91,12 @@ def test_handles_stand_where_the_params_say(fed):
         [0.1, 0.2, 0.3],
         pytest.approx([np.cos(0.5), 0, 0, np.sin(0.5)]),
     )
-    assert [one["props"]["scale"] for one in (place, flat, pose)] == [0.5, 0.3, 0.2]
-    assert [one["props"]["disable_rotations"] for one in (place, flat, pose)] == [True, True, False]
+    assert [node["props"]["scale"] for node in (place, flat, pose)] == [0.5, 0.3, 0.2]
+    assert [node["props"]["disable_rotations"] for node in (place, flat, pose)] == [
+        True,
+        True,
+        False,
+    ]
     assert flat["props"]["active_axes"] == [True, True, False], "a place in the plane z = 0"
     assert place["props"]["active_axes"] == [True, True, True]
     names = fed("() => Object.keys(client.seen()).filter((name) => name.startsWith('/handle/'))")
@@ -170,8 +174,8 @@ def test_clicks_are_heard_where_a_knob_and_the_home_take_them(fed, knobs, can, *
     }"""
     before = fed("() => client.said.length")
     assert fed(picks, [knobs, can]) == 3
-    said = fed(
+    messages = fed(
         "(n) => client.said.slice(n).map(({ type, modifiers }) => [type, modifiers])", before
     )
-    enabled = [modifiers for kind, modifiers in said if kind == "ScenePointerEnableMessage"]
+    enabled = [modifiers for kind, modifiers in messages if kind == "ScenePointerEnableMessage"]
     assert enabled[0] == ([None] if heard else [])

@@ -38,9 +38,9 @@ def test_keys_work_with_caps_lock_and_reach_twenty_experiments(visit):
         me.page.keyboard.press(key)
         me.page.wait_for_function("(name) => page.run.name === name", arg=presets[at])
     me.page.keyboard.press("?")
-    said = me.page.locator("#large").inner_text()
-    assert "experiments 1 to 10" in said
-    assert f"experiments 11 to {min(len(presets), 20)}" in said
+    text = me.page.locator("#large").inner_text()
+    assert "experiments 1 to 10" in text
+    assert f"experiments 11 to {min(len(presets), 20)}" in text
 
 
 def test_what_has_an_effect_stands_first_and_no_hint_covers_a_label(visit):

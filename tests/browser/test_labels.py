@@ -62,14 +62,14 @@ def pixel(
 def test_a_word_stands_over_its_place_from_wherever_it_is_seen(fed):
     p = np.array([0.3, -0.2, 0.4])
     show(fed, {"w": Label("word", p)})
-    said = "(camera) => { feed.hear({ type: 'ViewerCameraMessage', ...camera }); finish(); }"
+    script = "(camera) => { feed.hear({ type: 'ViewerCameraMessage', ...camera }); finish(); }"
     hidden = 0
     for _ in range(40):
         eye, target, up = RNG.normal(size=(3, 3)) * ((3,), (2,), (1,))
         fov = RNG.uniform(0.4, 1.4)
         R = seen_from(eye, target, up)
         q = Rotation.from_matrix(R).as_quat(scalar_first=True) * RNG.choice([-1, 1])
-        fed(said, {"wxyz": q.tolist(), "position": eye.tolist(), "fov": fov})
+        fed(script, {"wxyz": q.tolist(), "position": eye.tolist(), "fov": fov})
         u, v, z = pixel(p, eye, R, fov=fov)
         box = fed(WORDS)["w"]
         if z <= 0 or not (-50 < u < 850 and -50 < v < 550):
@@ -95,8 +95,8 @@ def test_words_are_not_cut_off_at_the_edge_of_a_narrow_picture(fed, words):
 
 
 def test_a_word_goes_out_of_the_way_of_the_page_s_buttons(fed):
-    there = {"w": Label("word", np.zeros(3))}
-    show(fed, there)
+    scene = {"w": Label("word", np.zeros(3))}
+    show(fed, scene)
     left, top, width, height = fed(WORDS)["w"]
     fed(
         """([x, y, w, h]) => {
@@ -106,12 +106,12 @@ def test_a_word_goes_out_of_the_way_of_the_page_s_buttons(fed):
         }""",
         [left - 5, top - 5, width + 10, height + 10],
     )
-    show(fed, there)
+    show(fed, scene)
     moved_left, moved_top, *_ = fed(WORDS)["w"]
     fed("() => $('#tools').remove()")
     assert moved_left == left
     assert moved_top + height <= top - 5 or moved_top >= top + height + 5
-    show(fed, there)
+    show(fed, scene)
     assert fed(WORDS)["w"][:2] == [left, top]
 
 
@@ -221,9 +221,9 @@ def test_a_narrower_frame_shows_as_much_in_its_width_and_the_eye_stays(fed, firs
         fed(resize, aspect)
         eye, fov = fed(CAMERA)
         np.testing.assert_allclose(eye, BARE.eye)
-        assert {one["type"] for one in fed("() => client.said.map(({ type }) => ({ type }))")} == {
-            "SetCameraFovMessage"
-        }
+        assert {
+            message["type"] for message in fed("() => client.said.map(({ type }) => ({ type }))")
+        } == {"SetCameraFovMessage"}
         if aspect >= keeps:
             assert fov == pytest.approx(FOV)
         else:

@@ -90,26 +90,26 @@ def test_what_is_faded_is_mixed_with_the_backdrop_of_the_page(fed, opacity, dark
         "mesh": Mesh(np.eye(3), FACE, "target", opacity=opacity),
         "word": Label("w", np.zeros(3), opacity=opacity),
     }
-    found = {
+    nodes = {
         name.removeprefix("/scene/"): node for name, node in shown(fed, scene, dark=dark).items()
     }
     arrows = [PALETTE[axis] for axis in ("x", "y", "z")]
     for name, rgb in (("one", PALETTE["source"]), ("each", GREEN), ("axes", arrows)):
         np.testing.assert_array_equal(
-            np.reshape(found[name]["colors"], (-1, 3)), np.atleast_2d(mixed(rgb, opacity, dark))
+            np.reshape(nodes[name]["colors"], (-1, 3)), np.atleast_2d(mixed(rgb, opacity, dark))
         )
     for name, rgb in (("line", PALETTE["target"]), ("camera", PALETTE["truth"])):
         np.testing.assert_array_equal(
-            found[name]["colors"], mixed(rgb, opacity, dark)
+            nodes[name]["colors"], mixed(rgb, opacity, dark)
         )  # one for all is sRGB
     ends = np.repeat([PALETTE["truth"], PALETTE["wrong"]], 2, axis=0)
     np.testing.assert_allclose(  # one for each end is linear light
-        np.reshape(found["lines"]["colors"], (-1, 3)),
+        np.reshape(nodes["lines"]["colors"], (-1, 3)),
         as_light(mixed(ends, opacity, dark)),
         atol=0.5,
     )
-    assert found["mesh"]["opacity"] == (opacity if opacity < 1 else None)
-    assert found["mesh"]["color"] == list(PALETTE["target"])
+    assert nodes["mesh"]["opacity"] == (opacity if opacity < 1 else None)
+    assert nodes["mesh"]["color"] == list(PALETTE["target"])
     assert fed("() => labels.words.get('/scene/word').style.opacity") == f"{opacity:g}"
 
 
@@ -117,11 +117,14 @@ def test_only_what_is_faded_is_sent_again_where_the_light_changes(fed):
     faded = Points(np.eye(3), "source", opacity=0.5)
     full = Points(np.eye(3), "source")
     shown(fed, {"faded": faded, "full": full, "mesh": Mesh(np.eye(3), FACE, HEIGHT, opacity=0.5)})
-    said = fed(
+    messages = fed(
         "() => { client.said = []; feed.theme(true); return client.said.map(({ type, name }) =>"
         " [type, name]); }"
     )
-    assert said == [["ThemeConfigurationMessage", None], ["SceneNodeUpdateMessage", "/scene/faded"]]
+    assert messages == [
+        ["ThemeConfigurationMessage", None],
+        ["SceneNodeUpdateMessage", "/scene/faded"],
+    ]
     assert fed("() => feed.client.said.at(-1).updates.points === undefined"), "its colours alone"
 
 
@@ -136,18 +139,18 @@ def test_a_coloured_surface_that_is_seen_through_is_a_file_that_others_read(fed,
     start = 20 + int(words[3])
     length, kind = np.frombuffer(glb[start : start + 8], "<u4")
     assert (kind, start + 8 + length) == (0x004E4942, len(glb))
-    (found,), (before,) = (
-        trimesh.load_scene(io.BytesIO(one), file_type="glb").geometry.values()
-        for one in (glb, opaque)
+    (faded,), (before,) = (
+        trimesh.load_scene(io.BytesIO(file), file_type="glb").geometry.values()
+        for file in (glb, opaque)
     )
-    assert found.visual.material.alphaMode == "BLEND"
+    assert faded.visual.material.alphaMode == "BLEND"
     assert before.visual.material.alphaMode is None
-    colors, own = (one.visual.vertex_attributes["color"] for one in (found, before))
+    colors, own = (surface.visual.vertex_attributes["color"] for surface in (faded, before))
     np.testing.assert_array_equal(colors[:, 3], round(255 * opacity))
     np.testing.assert_array_equal(colors[:, :3], own[:, :3])
     np.testing.assert_allclose(255 * (own[:, :3] / 255), as_light(color_rows(HEIGHT, 3)), atol=0.51)
-    np.testing.assert_array_equal(found.vertices, np.eye(3))
-    np.testing.assert_array_equal(found.faces, FACE)
+    np.testing.assert_array_equal(faded.vertices, np.eye(3))
+    np.testing.assert_array_equal(faded.faces, FACE)
 
 
 @pytest.mark.parametrize("opacity", [0.25, 0.5])
@@ -157,7 +160,7 @@ def test_a_faded_picture_comes_as_one_that_is_seen_through(fed, opacity, name):
     opaque = shown(fed, {"p": thing})[name]
     node = shown(fed, {"p": replace(thing, opacity=opacity)})[name]
     assert node["_format"] == "png"
-    image, before = (Image.open(io.BytesIO(bytes(one["_data"]))) for one in (node, opaque))
+    image, before = (Image.open(io.BytesIO(bytes(picture["_data"]))) for picture in (node, opaque))
     assert (image.mode, image.size) == ("RGBA", SMALL.shape[1::-1])
     rgba = np.asarray(image).astype(int)
     np.testing.assert_allclose(rgba[:, :, 3], 255 * opacity, atol=1)
@@ -216,10 +219,10 @@ def test_a_name_of_nothing_changes_nothing(fed, path):
 
 def ghosts(fed: Fed, scene: Scene, pin: Scene, *, dark: bool = False) -> dict[str, Any]:
     """Return the ghosts of a pinned scene behind another, by what follows `/ghost/`."""
-    found = shown(fed, scene, pin=pin, dark=dark)
+    nodes = shown(fed, scene, pin=pin, dark=dark)
     return {
         name.removeprefix("/ghost/"): node
-        for name, node in found.items()
+        for name, node in nodes.items()
         if name.startswith("/ghost/")
     }
 
@@ -234,11 +237,11 @@ EVERY: Scene = {
     "picture": Picture(SMALL, width=0.5),
     "word": Label("w", np.ones(3)),
 }
-MOVED_ALL: Scene = {path: replace(one, T_world_object=MOVED) for path, one in EVERY.items()}  # type: ignore[type-var]
+MOVED_ALL: Scene = {path: replace(thing, T_world_object=MOVED) for path, thing in EVERY.items()}  # type: ignore[type-var]
 
 
 def test_what_is_at_its_place_has_no_ghost_however_it_is_coloured(fed):
-    copy = {path: replace(one) for path, one in EVERY.items()}  # type: ignore[type-var]
+    copy = {path: replace(thing) for path, thing in EVERY.items()}  # type: ignore[type-var]
     other = copy | {
         "points": Points(np.eye(3), GREEN, opacity=0.5),
         "lines": Segments(ENDS, TWO, 2.0),
@@ -251,8 +254,8 @@ def test_what_is_at_its_place_has_no_ghost_however_it_is_coloured(fed):
 
 @pytest.mark.parametrize("dark", [False, True])
 def test_what_is_elsewhere_has_a_fine_and_pale_ghost_where_it_was(fed, dark):
-    found = ghosts(fed, MOVED_ALL, EVERY, dark=dark)
-    assert found.keys() == {
+    nodes = ghosts(fed, MOVED_ALL, EVERY, dark=dark)
+    assert nodes.keys() == {
         "points",
         "lines",
         "mesh",
@@ -261,15 +264,15 @@ def test_what_is_elsewhere_has_a_fine_and_pale_ghost_where_it_was(fed, dark):
         "camera",
     }, "no words, no pictures"
     assert all(
-        (node["wxyz"], node["position"]) == ([1, 0, 0, 0], [0, 0, 0]) for node in found.values()
+        (node["wxyz"], node["position"]) == ([1, 0, 0, 0], [0, 0, 0]) for node in nodes.values()
     )
-    np.testing.assert_array_equal(found["points"]["colors"], mixed(PALETTE["source"], 0.25, dark))
-    np.testing.assert_array_equal(found["lines"]["colors"], mixed(PALETTE["truth"], 0.25, dark))
-    assert found["points"]["point_size"] == pytest.approx(0.4 * 0.01)
-    assert found["lines"]["thickness"] == pytest.approx(0.6 * 2.0)
-    assert found["mesh"]["opacity"] == pytest.approx(0.25 * 0.5)
+    np.testing.assert_array_equal(nodes["points"]["colors"], mixed(PALETTE["source"], 0.25, dark))
+    np.testing.assert_array_equal(nodes["lines"]["colors"], mixed(PALETTE["truth"], 0.25, dark))
+    assert nodes["points"]["point_size"] == pytest.approx(0.4 * 0.01)
+    assert nodes["lines"]["thickness"] == pytest.approx(0.6 * 2.0)
+    assert nodes["mesh"]["opacity"] == pytest.approx(0.25 * 0.5)
     (surface,) = trimesh.load_scene(
-        io.BytesIO(bytes(found["height"]["glb_data"])), file_type="glb"
+        io.BytesIO(bytes(nodes["height"]["glb_data"])), file_type="glb"
     ).geometry.values()
     np.testing.assert_array_equal(surface.visual.vertex_attributes["color"][:, 3], 64)
 

@@ -97,17 +97,17 @@ def says_what_the_timeline_says(home: Home) -> None:
         len(run),
     )
     told = {
-        one["path"]: (one["name"], one["unit"], one["values"])
-        for one in home.ask("page.run.series")
+        curve["path"]: (curve["name"], curve["unit"], curve["values"])
+        for curve in home.ask("page.run.series")
     }
     series = run.series()
     assert told.keys() == series.keys()
-    for path, one in series.items():
+    for path, curve in series.items():
         name, unit, values = told[path]
-        assert (name, unit) == (one.scalar.name, one.scalar.unit)
+        assert (name, unit) == (curve.scalar.name, curve.scalar.unit)
         known = [math.nan if value is None else value for value in values]
         np.testing.assert_allclose(
-            known, np.where(np.isfinite(one.values), one.values, np.nan), rtol=1e-5, atol=1e-12
+            known, np.where(np.isfinite(curve.values), curve.values, np.nan), rtol=1e-5, atol=1e-12
         )
     home.find("#scene iframe").wait_for()
     home.frame.frame_locator("#scene iframe").locator("canvas").first.wait_for()
@@ -293,25 +293,25 @@ def a_question_is_answered_wrong_and_right(home: Home) -> None:
     if not home.lesson.questions or has_story(home.lesson):  # asked in its scenes: test_story
         return
     question = asked(home.lesson)
-    found = answer(
+    expected = answer(
         catalog()[home.lesson.name], question, None, timelines=home.server.runs.timelines
     )
     form = home.find(f"form[data-question='{question.name}']")
     if question.choices:
-        wrong = next(one for one in question.choices if one != found.truth)
-        right = found.truth
+        wrong = next(choice for choice in question.choices if choice != expected.truth)
+        right = expected.truth
     else:
-        wrong = f"{found.value + 2 * question.tolerance + 1:.9g}"
-        right = f"{found.value:.9g}"
-    for given, said in ((wrong, "You said "), (right, "Right: ")):
+        wrong = f"{expected.value + 2 * question.tolerance + 1:.9g}"
+        right = f"{expected.value:.9g}"
+    for given, reply in ((wrong, "You said "), (right, "Right: ")):
         if question.choices:
             form.get_by_label(given, exact=True).press("Space")
         else:
             form.locator("input").fill(given)
         form.get_by_role("button", name="Answer", exact=True).press("Enter")
-        form.locator("output", has_text=said).wait_for()
-        assert form.locator("output").inner_text().endswith(found.why)
-    home.says(complete(home, question.params)[found.step].caption.text)
+        form.locator("output", has_text=reply).wait_for()
+        assert form.locator("output").inner_text().endswith(expected.why)
+    home.says(complete(home, question.params)[expected.step].caption.text)
 
 
 def a_sweep_leads_to_another_run(home: Home) -> None:

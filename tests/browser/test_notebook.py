@@ -124,9 +124,9 @@ def test_a_cell_plays_in_jupyterlab(chromium, notebook):
 
     log = notebook.with_name("lab.txt")
     with (
-        log.open("w") as said,
+        log.open("w") as output,
         subprocess.Popen(
-            command, stdout=said, stderr=said, env=environment(notebook), cwd=notebook.parent
+            command, stdout=output, stderr=output, env=environment(notebook), cwd=notebook.parent
         ) as lab,
     ):
         try:

@@ -15,13 +15,13 @@ def test_a_reload_comes_back_to_the_place_and_what_was_answered_stays(visit):
     lesson = catalog()["fitting"]
     line = Timeline(lesson, lesson.preset("line").params).complete()
     me = visit("?lesson=fitting&theirs=1")
-    question = next(one for one in lesson.questions if not one.choices)
-    found = answer(lesson, question, None, timelines=Timelines())
+    question = next(candidate for candidate in lesson.questions if not candidate.choices)
+    expected = answer(lesson, question, None, timelines=Timelines())
     form = me.page.locator(f"form[data-question={question.name}]")
     form.locator("input").first.fill("50")
     form.get_by_role("button", name="Answer").click()
-    form.get_by_text(found.truth).wait_for()
-    me.says(Timeline(lesson, question.params).complete()[found.step].caption.text)
+    form.get_by_text(expected.truth).wait_for()
+    me.says(Timeline(lesson, question.params).complete()[expected.step].caption.text)
     me.page.get_by_text("All experiments").click()
     me.page.locator("button[data-run=line]").click()
     me.says(line[0].caption.text)
@@ -35,7 +35,7 @@ def test_a_reload_comes_back_to_the_place_and_what_was_answered_stays(visit):
     )  # keys that are not ours are left alone
     me.page.reload()
     me.says(line[1].caption.text)
-    assert found.why in form.locator("output").inner_text()
+    assert expected.why in form.locator("output").inner_text()
 
 
 def test_the_scene_is_large_and_the_controls_do_not_move(visit):
@@ -69,11 +69,11 @@ def test_a_chart_stands_beside_the_scene_once_it_has_a_point(visit):
     assert "series Conductance" not in me.page.evaluate(titles)
     me.act("last")
     me.page.wait_for_function(f"{titles}.includes('series Conductance')")
-    said = me.page.evaluate(
+    texts = me.page.evaluate(
         "[measured(1.14e12, ''), measured(-7.59e-4, '%'), measured(1e-9, 'deg'), measured(12.5,"
         " '%')]"
     )
-    assert said == ["1.14 × 10¹²", "−7.59 × 10⁻⁴ %", "1 × 10⁻⁹°", "12.5 %"]
+    assert texts == ["1.14 × 10¹²", "−7.59 × 10⁻⁴ %", "1 × 10⁻⁹°", "12.5 %"]
 
 
 def test_the_stage_says_which_experiment_is_open_has_one_large_chart_and_named_places(visit):

@@ -54,8 +54,10 @@ def opened(chromium, address):
 
 def seen(page, selector: str) -> list[str]:
     """Return the parts under a selector that are seen."""
-    found = page.locator(selector).all()
-    return [one.evaluate("one => one.outerHTML.slice(0, 90)") for one in found if one.is_visible()]
+    parts = page.locator(selector).all()
+    return [
+        part.evaluate("one => one.outerHTML.slice(0, 90)") for part in parts if part.is_visible()
+    ]
 
 
 @pytest.mark.parametrize("name", PAGES)
@@ -66,12 +68,12 @@ def test_paper_has_a_picture_and_a_chart_of_every_scene_dark_on_white(opened, na
     page.emulate_media(media="print")
     stills = page.locator(".still img")
     assert stills.count() >= 2
-    for one in stills.all():
-        one.scroll_into_view_if_needed()
+    for still in stills.all():
+        still.scroll_into_view_if_needed()
         page.wait_for_function(
-            "one => one.complete && one.naturalWidth > 0", arg=one.element_handle()
+            "one => one.complete && one.naturalWidth > 0", arg=still.element_handle()
         )
-        box = one.bounding_box()
+        box = still.bounding_box()
         assert box["height"] > 0.5 * box["width"] > 100
     assert seen(page, "#side button, #side input, #side select, form button, form input") == []
     assert seen(page, "nav.top, #story-top, #dots, .picks, #bar, #scene, #tools") == []
@@ -104,7 +106,9 @@ def test_without_a_script_nothing_dead_is_shown_and_a_sentence_says_why(opened, 
     assert "JavaScript" in words.inner_text()
     assert page.locator("h1:visible").count() == 1
     assert page.locator("img:visible, svg:visible").count() >= 1
-    links = [one for one in page.locator("a:visible").all() if one.get_attribute("data-run")]
+    links = [
+        anchor for anchor in page.locator("a:visible").all() if anchor.get_attribute("data-run")
+    ]
     for link in links:
         assert link.evaluate("one => getComputedStyle(one).pointerEvents") == "none"
 

@@ -14,12 +14,14 @@ def test_nothing_of_a_page_is_refused_and_nothing_is_asked_of_another_host(chrom
     lesson = catalog()["pinhole"]
     run = Timeline(lesson, lesson.params()).complete()
     page = chromium.new_page(viewport={"width": 800, "height": 600}, bypass_csp=False)
-    said, asked = [], []
+    messages, asked = [], []
     page.on(
         "console",
-        lambda message: said.append(message.text) if message.type in ("error", "warning") else None,
+        lambda message: (
+            messages.append(message.text) if message.type in ("error", "warning") else None
+        ),
     )
-    page.on("pageerror", lambda error: said.append(str(error)))
+    page.on("pageerror", lambda error: messages.append(str(error)))
     page.on("request", lambda request: asked.append(request.url))
     page.goto(f"{server.address}/?lesson=pinhole&step=2")
     page.locator("#count").get_by_text(f" / {len(run) - 1}").wait_for()
@@ -32,7 +34,7 @@ def test_nothing_of_a_page_is_refused_and_nothing_is_asked_of_another_host(chrom
         page.locator(name).dispatch_event("click")
     values = page.evaluate("page.run.series.map((one) => one.values.length)")
     assert values == [len(run)] * len(run.series()), "they came in parts"
-    refused = [text for text in said if "Content Security Policy" in text or "Refused" in text]
+    refused = [text for text in messages if "Content Security Policy" in text or "Refused" in text]
     assert refused == []
     assert {url for url in asked if not url.startswith((server.address, "data:", "blob:"))} == set()
     page.close()

@@ -199,7 +199,7 @@ def test_the_scene_is_really_drawn_and_follows_the_theme(opened, out):
     )
     target = Timeline(catalog()["icp"], catalog()["icp"].params())
     target.extend()
-    assert any(isinstance(one, Points) for one in target[0].scene.values())
+    assert any(isinstance(thing, Points) for thing in target[0].scene.values())
     notices = page.frame_locator("#scene iframe").get_by_text("Software WebGL")
     notices.first.wait_for(state="attached")  # viser says it wherever there is no graphics card
     assert not any(notice.is_visible() for notice in notices.all())
@@ -311,7 +311,7 @@ def test_one_run_alone_plays_and_takes_neither_focus_nor_scrolls_its_host(opened
       document.body.append(Object.assign(frame, { src: "icp/runs/default.html", width: 800, height: 500 }));
     }""")
     page.frame_locator("iframe").locator("#caption").wait_for()
-    embedded = next(one for one in page.frames if "/default.html" in one.url)
+    embedded = next(frame for frame in page.frames if "/default.html" in frame.url)
     embedded.wait_for_function(SCENE_IS_THERE)
     page.frame_locator("iframe").frame_locator("#scene iframe").locator("canvas").first.wait_for()
     embedded.evaluate(FRAMES)  # what mounts late would take the focus by now

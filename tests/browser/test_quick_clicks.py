@@ -18,9 +18,9 @@ SEEN = """([known, k, caption]) =>
 def alone(lesson: Any) -> list[Question]:
     """Return the questions whose run is no preset's."""
     return [
-        one
-        for one in lesson.questions
-        if one.params != lesson.params() and lesson.preset_of(one.params) is None
+        question
+        for question in lesson.questions
+        if question.params != lesson.params() and lesson.preset_of(question.params) is None
     ]
 
 
@@ -31,8 +31,8 @@ def test_the_last_of_quick_clicks_wins_and_a_question_s_run_follows(visit, name)
     question = (alone(lesson) or lesson.questions[-1:])[0]
     clicks = [preset.name for preset in lesson.presets] * ROUNDS + [last.name]
     me = visit(f"?lesson={name}", scene=True)
-    said: list[str] = []
-    me.page.on("console", lambda message: said.append(message.text))
+    messages: list[str] = []
+    me.page.on("console", lambda message: messages.append(message.text))
     me.scene()
 
     def shows(params: Any, step: int) -> None:
@@ -52,4 +52,6 @@ def test_the_last_of_quick_clicks_wins_and_a_question_s_run_follows(visit, name)
     shows(question.params, -1 if question.step is None else question.step)
     me.page.evaluate(click, [last.name])
     shows(last.params, lesson.first_step if last.step is None else last.step)
-    assert [text for text in said if "non-existent" in text or "Invalid array length" in text] == []
+    assert [
+        text for text in messages if "non-existent" in text or "Invalid array length" in text
+    ] == []

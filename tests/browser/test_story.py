@@ -135,10 +135,10 @@ def test_a_question_is_asked_played_and_answered_and_stays_so(told):
     form.locator(".reply:not(:empty)").wait_for()
     assert form.locator("label.right").count() == 1
     assert later.is_visible()
-    said = form.locator(".reply").inner_text()
+    reply = form.locator(".reply").inner_text()
     page.reload()
     page.wait_for_function(STANDS)
-    assert form.locator(".reply").inner_text() == said
+    assert form.locator(".reply").inner_text() == reply
     assert later.is_visible()
 
 
@@ -216,19 +216,19 @@ def test_nobody_is_kept_out(told, dark):
 
 
 @pytest.mark.parametrize(
-    ("value", "said"), [(426.0, "426"), (1250.0, "1,250"), (0.0123456, "0.012"), (-35.7, "−36")]
+    ("value", "shown"), [(426.0, "426"), (1250.0, "1,250"), (0.0123456, "0.012"), (-35.7, "−36")]
 )
-def test_the_end_of_a_series_keeps_its_whole_number(told, value, said):
+def test_the_end_of_a_series_keeps_its_whole_number(told, value, shown):
     y = {"low": -40, "high": 1300, "ticks": [0], "words": ["0"]}
-    one = {"chart": "a", "name": "a", "values": [0, value], "color": "source", "unit": ""}
+    series = {"chart": "a", "name": "a", "values": [0, value], "color": "source", "unit": ""}
     drawn = told().page.evaluate(
         "([run, room]) => seriesRow(run, 'a', room).join('')",
         [
-            {"series": [one], "charts": {"a": {"y": y, "yLabel": ""}}},
+            {"series": [series], "charts": {"a": {"y": y, "yLabel": ""}}},
             {"w": 600, "top": 10, "height": 120, "k": 1, "end": 1, "last": True},
         ],
     )
-    assert said in re.findall(r'class="value over"[^>]*>([^<]*)<', drawn)
+    assert shown in re.findall(r'class="value over"[^>]*>([^<]*)<', drawn)
 
 
 def test_the_ends_of_series_stand_in_the_chart_and_apart(told):
@@ -258,10 +258,10 @@ def test_the_ends_of_series_stand_in_the_chart_and_apart(told):
 
 def test_a_chart_is_never_named_by_a_unit_alone(told):
     page = told().page
-    said = page.evaluate(
+    titles = page.evaluate(
         "['rad', 'm', 'error (%)', ''].map((yLabel) => named({ title: 'Sum', yLabel }))"
     )
-    assert said == ["Sum (rad)", "Sum (m)", "error (%)", "Sum"]
+    assert titles == ["Sum (rad)", "Sum (m)", "error (%)", "Sum"]
 
 
 def test_every_chart_that_is_named_is_drawn_and_answers_end_where_the_run_does(visit):
@@ -272,7 +272,7 @@ def test_every_chart_that_is_named_is_drawn_and_answers_end_where_the_run_does(v
     starts = page.evaluate("Object.values(STORY.starts)")
     answers = [start["seen"] for start in starts]
     seen = []
-    for place in {repr(one): one for one in (*places, *answers)}.values():
+    for place in {repr(spot): spot for spot in (*places, *answers)}.values():
         page.evaluate("place => storyStage.go({ ...place, from: undefined })", place)
         page.wait_for_function(STANDS)
         if place.get("chart"):

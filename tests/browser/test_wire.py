@@ -73,9 +73,9 @@ def test_each_step_is_read_as_it_was_sent(fed, timeline):
           const head = own.read(bytes(content));
           return [head.k, steps([own.nodes(head.nodes)])];
         }}"""
-        k, (found,) = fed(read, coded(message))
+        k, (nodes,) = fed(read, coded(message))
         assert k == step.state.k
-        assert found == [[name, plain(node)] for name, node in wanted.items()]
+        assert nodes == [[name, plain(node)] for name, node in wanted.items()]
 
 
 def test_a_whole_run_is_read_as_its_steps(fed, timeline):

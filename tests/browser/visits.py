@@ -46,14 +46,14 @@ def at_rest(page: Any) -> np.ndarray:
         page.evaluate(
             "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
         )
-        now = page.screenshot(clip=between)
-        alike = alike + 1 if now == before else 0
+        shot = page.screenshot(clip=between)
+        alike = alike + 1 if shot == before else 0
         if alike == ALIKE:
-            image = Image.open(io.BytesIO(now)).convert("RGB")
+            image = Image.open(io.BytesIO(shot)).convert("RGB")
             return np.asarray(
                 image.resize((image.width // 10, image.height // 10), Image.Resampling.BOX)
             ).astype(int)
-        before = now
+        before = shot
     raise AssertionError("the scene does not come to rest")
 
 

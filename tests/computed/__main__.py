@@ -24,13 +24,15 @@ def presets(pyodide: Path, folder: Path, lessons: list[Lesson]) -> int:
     core = make_archive(folder / "core.zip")
     new = 0
     runners = {lesson.name: Runner(lesson) for lesson in lessons}
-    for there in lines_of(pyodide, core, "summarised.py", words=[f"{name} *" for name in runners]):
-        run = there["run"]
+    for by_pyodide in lines_of(
+        pyodide, core, "summarised.py", words=[f"{name} *" for name in runners]
+    ):
+        run = by_pyodide["run"]
         lesson, _, name = run.partition(" ")
-        found = differences(summary(runners[lesson], name), there)
-        new += bool(found) and run not in DIFFERENT
-        if found:
-            print(f"{run}: {DIFFERENT.get(run, 'NEW')}: {found[0]}", flush=True)
+        lines = differences(summary(runners[lesson], name), by_pyodide)
+        new += bool(lines) and run not in DIFFERENT
+        if lines:
+            print(f"{run}: {DIFFERENT.get(run, 'NEW')}: {lines[0]}", flush=True)
     return new
 
 
@@ -40,23 +42,23 @@ def solutions(pyodide: Path, folder: Path, lessons: list[Lesson]) -> int:
     texts = {task[:3]: task[3] for task in tasks}
     core = make_archive(folder / "core.zip", tasks)
     new = count = 0
-    for lesson, exercise, what, there in lines_of(pyodide, core, "judged.py"):
-        here = judged(lesson, exercise, texts[lesson, exercise, what])
-        name = f"{exercise} {what}"
+    for lesson, exercise, solution, by_pyodide in lines_of(pyodide, core, "judged.py"):
+        here = judged(lesson, exercise, texts[lesson, exercise, solution])
+        name = f"{exercise} {solution}"
         count += 1
-        if verdict(here) != verdict(there):
+        if verdict(here) != verdict(by_pyodide):
             new += name not in OTHERWISE_JUDGED
-            print(f"{name}: {OTHERWISE_JUDGED.get(name, 'NEW')}: {there}", flush=True)
+            print(f"{name}: {OTHERWISE_JUDGED.get(name, 'NEW')}: {by_pyodide}", flush=True)
     print(f"{count} solutions were judged")
     return new
 
 
 def main() -> int:
     """Compare what the command line names."""
-    what, *names = sys.argv[1:]
+    subject, *names = sys.argv[1:]
     pyodide = Path(os.environ.get("WORKBENCH_PYODIDE", ROOT.parent / "shared" / "pyodide"))
     lessons = [find(name) for name in names] or list(catalog().values())
-    compare = {"presets": presets, "solutions": solutions}[what]
+    compare = {"presets": presets, "solutions": solutions}[subject]
     with tempfile.TemporaryDirectory() as folder:
         new = compare(pyodide.resolve(), Path(folder), lessons)
     print(f"{new} differences are new")

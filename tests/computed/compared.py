@@ -27,10 +27,10 @@ def make_archive(path: Path, tasks: Iterable[Task] = ()) -> Path:
     if listed:
         with zipfile.ZipFile(path, "a") as core:
             core.writestr("tasks.json", json.dumps(listed))
-            there = set(core.namelist())
+            names = set(core.namelist())
             for file in ROOT.glob("lessons/*/exercises/**/*.py"):
                 name = str(file.relative_to(ROOT))
-                if name not in there:
+                if name not in names:
                     core.write(file, name)
     return path
 
@@ -54,23 +54,25 @@ def lines_of(pyodide: Path, core: Path, script: str, *, words: Iterable[str] = (
         raise RuntimeError(trouble[-3000:])
 
 
-def differences(here: Mapping[str, Any], there: Mapping[str, Any]) -> list[str]:
+def differences(here: Mapping[str, Any], by_pyodide: Mapping[str, Any]) -> list[str]:
     """Return where two summaries of a run differ: a line each."""
-    if "error" in there:
-        return [there["error"]]
-    if there["stopped"] != here["stopped"]:
-        return [f"stopped: {there['stopped']}"]
-    mine, theirs = (list(zip(one["captions"], one["tones"], strict=True)) for one in (here, there))
+    if "error" in by_pyodide:
+        return [by_pyodide["error"]]
+    if by_pyodide["stopped"] != here["stopped"]:
+        return [f"stopped: {by_pyodide['stopped']}"]
+    mine, theirs = (
+        list(zip(run["captions"], run["tones"], strict=True)) for run in (here, by_pyodide)
+    )
     if len(mine) != len(theirs):
         return [f"{len(theirs)} steps, {len(mine)} here"]
     pairs = enumerate(zip(mine, theirs, strict=True))
-    found = [f"step {k}: {b[0]!r}, here {a[0]!r}" for k, (a, b) in pairs if a != b]
-    if here["curves"].keys() != there["curves"].keys():
-        return [*found, f"curves {list(there['curves'])}"]
+    lines = [f"step {k}: {b[0]!r}, here {a[0]!r}" for k, (a, b) in pairs if a != b]
+    if here["curves"].keys() != by_pyodide["curves"].keys():
+        return [*lines, f"curves {list(by_pyodide['curves'])}"]
     for path, values in here["curves"].items():
-        off = max(map(apart, values, there["curves"][path]), default=0.0)
-        found += [f"{path}: {off:.1g} apart"] if off > CLOSE else []
-    return found
+        off = max(map(apart, values, by_pyodide["curves"][path]), default=0.0)
+        lines += [f"{path}: {off:.1g} apart"] if off > CLOSE else []
+    return lines
 
 
 def apart(a: float | None, b: float | None) -> float:
@@ -80,6 +82,6 @@ def apart(a: float | None, b: float | None) -> float:
     return abs(a - b) / max(1.0, abs(a))
 
 
-def verdict(found: list[Any]) -> list[Any]:
+def verdict(judgement: list[Any]) -> list[Any]:
     """Return of what `judged` found the marks alone: the mistake, and the share of each check."""
-    return [one if isinstance(one, str | None) else one[:2] for one in found]
+    return [entry if isinstance(entry, str | None) else entry[:2] for entry in judgement]

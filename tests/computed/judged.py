@@ -21,23 +21,23 @@ def judged(lesson: str, exercise: str, text: str) -> list[Any]:
     """Return what all checks that are here find: of each its name, its share and its message, and
     the mistake that was recognised.
     """
-    found = exercises_in_folder(importlib.import_module(f"lessons.{lesson}.lesson").lesson)
-    task = next(one for one in found if one.name == exercise)
+    exercises = exercises_in_folder(importlib.import_module(f"lessons.{lesson}.lesson").lesson)
+    task = next(candidate for candidate in exercises if candidate.name == exercise)
     try:
         student = InPlaceFunction(read_in_place(task.file, text), exercise)
         report = grade_function(student, task)
     except InputError as error:
         return [str(error)]
     mistake = None if report.mistake is None else report.mistake.name
-    verdicts = [(one.check.name, one.verdict) for one in report.outcomes]
+    verdicts = [(outcome.check.name, outcome.verdict) for outcome in report.outcomes]
     return [mistake, *([name, made.share, made.message] for name, made in verdicts)]
 
 
 def main() -> None:
     """Judge all tasks."""
-    for lesson, exercise, what, text in json.loads(TASKS.read_text()):
-        found = judged(lesson, exercise, text)
-        sys.stdout.write(f"{json.dumps([lesson, exercise, what, found])}\n")
+    for lesson, exercise, solution, text in json.loads(TASKS.read_text()):
+        judgement = judged(lesson, exercise, text)
+        sys.stdout.write(f"{json.dumps([lesson, exercise, solution, judgement])}\n")
 
 
 if "given" in globals():

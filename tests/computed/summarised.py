@@ -43,7 +43,7 @@ def main(wanted: list[str]) -> None:
     for words in wanted:
         lesson, _, name = words.partition(" ")
         runner = open_lesson(lesson)
-        names = ["default", *(one.name for one in runner.lesson.presets)]
+        names = ["default", *(preset.name for preset in runner.lesson.presets)]
         for run in names if name == "*" else [name or "default"]:
             try:
                 made = summary(runner, run)

@@ -46,7 +46,7 @@ def test_no_hidden_check_is_in_it(core):
                     node
                     for node in ast.walk(tree)
                     if isinstance(node, ast.FunctionDef)
-                    and any("check(" in ast.unparse(one) for one in node.decorator_list)
+                    and any("check(" in ast.unparse(decorator) for decorator in node.decorator_list)
                 ]
                 assert not {f"{name} {node.name}" for node in checks} & hidden
                 assert "public=False" not in packed.read(name).decode(), name
@@ -58,10 +58,10 @@ def test_it_tells_of_every_exercise_that_is_in_it(core):
         names = packed.namelist()
     for lesson in course().values():
         wanted = list(exercises_of(lesson))
-        assert [one["name"] for one in told[lesson.name]] == [one.name for one in wanted]
-        for one, exercise in zip(told[lesson.name], wanted, strict=True):
-            assert one["starter"] == starter(exercise)
-            assert bool(one["preset"]) == bool(one["title"])
+        assert [entry["name"] for entry in told[lesson.name]] == [task.name for task in wanted]
+        for entry, exercise in zip(told[lesson.name], wanted, strict=True):
+            assert entry["starter"] == starter(exercise)
+            assert bool(entry["preset"]) == bool(entry["title"])
             assert f"lessons/{lesson.name}/exercises/{exercise.name}.py" in names
 
 
@@ -95,9 +95,9 @@ print(runner.timeline.stopped)
         [sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path
     )
     assert done.returncode == 0, done.stderr[-2000:]
-    said = done.stdout.splitlines()
-    assert said[0] == str([one.name for one in exercises_of(find("features"))])
-    assert "cannot be found in a browser" in said[1]
+    lines = done.stdout.splitlines()
+    assert lines[0] == str([exercise.name for exercise in exercises_of(find("features"))])
+    assert "cannot be found in a browser" in lines[1]
 
 
 def test_stored_pictures_are_the_samples(core, tmp_path, monkeypatch):

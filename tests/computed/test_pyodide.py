@@ -26,22 +26,24 @@ def core(tmp_path_factory) -> Path:
 
 def test_default_runs_tell_there_what_they_tell_here(pyodide, core):
     names = list(catalog())
-    there = {one["run"]: one for one in lines_of(pyodide, core, "summarised.py", words=names)}
-    assert list(there) == [f"{name} default" for name in names]
-    found = {
-        name: differences(summary(open_lesson(name), "default"), there[f"{name} default"])
+    by_pyodide = {
+        entry["run"]: entry for entry in lines_of(pyodide, core, "summarised.py", words=names)
+    }
+    assert list(by_pyodide) == [f"{name} default" for name in names]
+    differing = {
+        name: differences(summary(open_lesson(name), "default"), by_pyodide[f"{name} default"])
         for name in names
         if f"{name} default" not in DIFFERENT
     }
-    assert {name: lines for name, lines in found.items() if lines} == {}
+    assert {name: lines for name, lines in differing.items() if lines} == {}
 
 
 def test_solutions_get_there_the_verdicts_that_they_get_here(pyodide, core):
     texts = {task[:3]: task[3] for name in SAMPLED for task in tasks_of(find(name))}
-    found = list(lines_of(pyodide, core, "judged.py"))
-    assert len(found) > 30
-    assert {what.partition("_")[0] for _, _, what, _ in found} == {"right", "wrong"}
-    for lesson, exercise, what, there in found:
-        here = judged(lesson, exercise, texts[lesson, exercise, what])
-        if f"{exercise} {what}" not in OTHERWISE_JUDGED:
-            assert verdict(there) == verdict(here), (exercise, what)
+    judgements = list(lines_of(pyodide, core, "judged.py"))
+    assert len(judgements) > 30
+    assert {solution.partition("_")[0] for _, _, solution, _ in judgements} == {"right", "wrong"}
+    for lesson, exercise, solution, by_pyodide in judgements:
+        here = judged(lesson, exercise, texts[lesson, exercise, solution])
+        if f"{exercise} {solution}" not in OTHERWISE_JUDGED:
+            assert verdict(by_pyodide) == verdict(here), (exercise, solution)

@@ -147,9 +147,9 @@ def test_a_students_text_is_judged_in_the_words_of_check(name):
 def test_what_is_forbidden_is_refused():
     text = "import numpy as np\nfrom scipy.spatial import cKDTree\n"
     text += "def match(a, b):\n    return cKDTree(a).query(b)[1]\n"
-    said = open_lesson("icp").judge("match", text)
-    assert {check["points"][0] for check in said["checks"]} == {"0"}
-    assert "uses scipy.spatial, which is forbidden" in said["checks"][0]["message"]
+    report = open_lesson("icp").judge("match", text)
+    assert {check["points"][0] for check in report["checks"]} == {"0"}
+    assert "uses scipy.spatial, which is forbidden" in report["checks"][0]["message"]
 
 
 def test_a_students_function_drives_the_lesson_with_ours_as_its_ghost():

@@ -46,10 +46,10 @@ def poses(count: int, tilt: float, distance: float = 0.4) -> np.ndarray:
     )
 
 
-def off(found: np.ndarray | None, uv: np.ndarray) -> float:
+def off(corners: np.ndarray | None, uv: np.ndarray) -> float:
     """Return the rms distance, pixels, to the corners in the right order."""
-    assert found is not None
-    return float(np.sqrt(np.square(found - uv).sum(axis=1).mean()))
+    assert corners is not None
+    return float(np.sqrt(np.square(corners - uv).sum(axis=1).mean()))
 
 
 @pytest.mark.parametrize(("tilt", "distance"), [(0, 0.4), (20, 0.4), (40, 0.4), (30, 1.2)])
@@ -121,23 +121,23 @@ def test_real_pictures_beside_corners_that_were_found_by_opencv(shared_data: Pat
     """In windows as wide as theirs ours are the same; in narrower ones no view is bad any more."""
     folder = shared_data / "calibration"
     arrays = np.load(folder / "corners_9x6.npz")
-    found = []
+    corners = []
     for k, theirs in zip(LEFT, arrays["left"], strict=True):
         picture = np.asarray(Image.open(folder / f"left{k:02}.jpg").convert("L"))
         ours = board_corners(picture, 9, 6)
         assert ours is not None
-        found.append(ours)
+        corners.append(ours)
         wide = refined(picture, ours, 11)
         assert min(off(wide, theirs), off(wide[::-1], theirs)) < 0.001
     close = [
         min(off(ours, theirs), off(ours[::-1], theirs)) < 0.1
-        for ours, theirs in zip(found, arrays["left"], strict=True)
+        for ours, theirs in zip(corners, arrays["left"], strict=True)
     ]
     assert sum(close) == 9
     p = arrays["object_points"].astype(float)
     for uv, rms, worst, f in (
         (arrays["left"].astype(float), 0.409, 1.22, 536.1),
-        (np.stack(found), 0.179, 0.24, 533.1),
+        (np.stack(corners), 0.179, 0.24, 533.1),
     ):
         *_, end = calibrate(p, uv, (640, 480), coefficients=5)
         views = np.sqrt(np.square(end.residuals).sum(axis=2).mean(axis=1))

@@ -39,9 +39,9 @@ def test_all_corners_are_in_the_picture(options):
 
 @pytest.mark.parametrize("tilt", [0.0, 0.2, 1.0])
 def test_tilts_are_what_was_asked_for(tilt):
-    found = np.arccos(np.clip(poses(tilt=tilt)[:, 2, 2], -1, 1))
-    assert (found >= 0.6 * tilt - 1e-6).all()
-    assert (found <= 1.2 * tilt + 1e-6).all()
+    tilts = np.arccos(np.clip(poses(tilt=tilt)[:, 2, 2], -1, 1))
+    assert (tilts >= 0.6 * tilt - 1e-6).all()
+    assert (tilts <= 1.2 * tilt + 1e-6).all()
 
 
 def test_a_seed_keeps_its_directions_at_every_tilt():

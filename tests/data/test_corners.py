@@ -33,10 +33,10 @@ def without_numbers(*whole: int, some: tuple[tuple[int, int], ...] = (), k: int 
 def test_arrays_under_several_names(tmp_path, names):
     arrays: dict[str, Any] = {names[0]: P[:, :2], names[1]: views()}
     np.savez(tmp_path / "c.npz", **arrays)
-    found = read_corners(tmp_path / "c.npz")
-    np.testing.assert_array_equal(found.p_board, P)
-    np.testing.assert_array_equal(found.uv, views())
-    assert found.size == (640, 480)
+    corners = read_corners(tmp_path / "c.npz")
+    np.testing.assert_array_equal(corners.p_board, P)
+    np.testing.assert_array_equal(corners.uv, views())
+    assert corners.size == (640, 480)
 
 
 def test_opencvs_shapes_a_second_camera_and_a_size(tmp_path):
@@ -60,13 +60,13 @@ def test_lines_of_text(tmp_path, header):
         for (x, y, _), (u, v) in zip(P, uv, strict=True)
     ]
     (tmp_path / "c.csv").write_text(header + "\n".join(lines))
-    found = read_corners(tmp_path / "c.csv")
-    np.testing.assert_allclose(found.p_board, P)
-    np.testing.assert_allclose(found.uv, views())
+    corners = read_corners(tmp_path / "c.csv")
+    np.testing.assert_allclose(corners.p_board, P)
+    np.testing.assert_allclose(corners.uv, views())
 
 
 @pytest.mark.parametrize(
-    ("uv", "kept_views", "kept_points", "said"),
+    ("uv", "kept_views", "kept_points", "message"),
     [
         (
             without_numbers(some=((0, 5), (2, 5), (1, 7))),
@@ -96,7 +96,7 @@ def test_lines_of_text(tmp_path, header):
 )
 @pytest.mark.parametrize("ending", ["npz", "csv"])
 def test_corners_without_a_number_are_left_out_and_counted(
-    tmp_path, uv, kept_views, *, kept_points, said, ending
+    tmp_path, uv, kept_views, *, kept_points, message, ending
 ):
     path = tmp_path / f"c.{ending}"
     if ending == "npz":
@@ -108,12 +108,15 @@ def test_corners_without_a_number_are_left_out_and_counted(
             for (x, y, _), (u, v) in zip(P, of, strict=True)
         ]
         path.write_text("\n".join(rows))
-    found = read_corners(path)
-    assert told(path) == (f"{path.name}: {said}",)
-    assert (found.views, found.count) == (kept_views, len(uv))
-    assert (len(found.p_board), found.uv.shape) == (kept_points, (len(kept_views), kept_points, 2))
-    at = [int(np.flatnonzero((p == P).all(axis=1))[0]) for p in found.p_board]
-    np.testing.assert_array_equal(found.uv, uv[np.ix_(kept_views, at)])
+    corners = read_corners(path)
+    assert told(path) == (f"{path.name}: {message}",)
+    assert (corners.views, corners.count) == (kept_views, len(uv))
+    assert (len(corners.p_board), corners.uv.shape) == (
+        kept_points,
+        (len(kept_views), kept_points, 2),
+    )
+    at = [int(np.flatnonzero((p == P).all(axis=1))[0]) for p in corners.p_board]
+    np.testing.assert_array_equal(corners.uv, uv[np.ix_(kept_views, at)])
 
 
 def test_a_point_of_the_board_without_a_number_is_left_out_in_all_views(tmp_path):
@@ -134,7 +137,7 @@ def test_a_size_is_guessed_that_holds_all_corners(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("arrays", "said"),
+    ("arrays", "message"),
     [
         ({}, "no arrays"),
         ({"board": P}, "no arrays object_points and corners"),
@@ -159,14 +162,14 @@ def test_a_size_is_guessed_that_holds_all_corners(tmp_path):
         ({"board": np.zeros((0, 4, 3)), "uv": views()}, "where"),
     ],
 )
-def test_arrays_that_are_refused(tmp_path, arrays, said):
+def test_arrays_that_are_refused(tmp_path, arrays, message):
     np.savez(tmp_path / "c.npz", **arrays)
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read_corners(tmp_path / "c.npz")
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("", "no lines"),
         ("just words", "no lines"),
@@ -176,17 +179,17 @@ def test_arrays_that_are_refused(tmp_path, arrays, said):
         ("0 0 0 1 1\n1 1 0 2 2", "same points"),
     ],
 )
-def test_text_that_is_refused(tmp_path, text, said):
+def test_text_that_is_refused(tmp_path, text, message):
     (tmp_path / "c.csv").write_text(text)
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read_corners(tmp_path / "c.csv")
 
 
 def test_files_that_are_none(tmp_path):
-    for name, said in (("none.npz", "no such file"), ("c.png", "text files")):
+    for name, message in (("none.npz", "no such file"), ("c.png", "text files")):
         if name == "c.png":
             (tmp_path / name).write_bytes(b"\x89PNG")
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             read_corners(tmp_path / name)
     (tmp_path / "c.npz").write_bytes(b"PK\x03\x04 broken")
     with pytest.raises(InputError, match="not readable"):

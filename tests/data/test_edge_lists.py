@@ -25,14 +25,14 @@ def write(tmp_path):
     ],
 )
 def test_dialects(write, text):
-    found = read_edges(write(text), 100)
-    assert found.names == ("Ann", "Bo", "Cy")
-    np.testing.assert_array_equal(found.edges, [[0, 1], [1, 2], [0, 2]])
-    np.testing.assert_allclose(found.weights, [2, 1, 0.5])
+    graph = read_edges(write(text), 100)
+    assert graph.names == ("Ann", "Bo", "Cy")
+    np.testing.assert_array_equal(graph.edges, [[0, 1], [1, 2], [0, 2]])
+    np.testing.assert_allclose(graph.weights, [2, 1, 0.5])
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("a,b,c,d\n", "line 1: 4 entries"),
         ("a,b\nc\n", "line 2: 1 entries"),
@@ -45,8 +45,8 @@ def test_dialects(write, text):
         ("\n".join(f"0 {k}" for k in range(1, 9)), "9 nodes; at most 8"),
     ],
 )
-def test_what_is_refused(write, text, said):
-    with pytest.raises(InputError, match=said) as caught:
+def test_what_is_refused(write, text, message):
+    with pytest.raises(InputError, match=message) as caught:
         read_edges(write(text), 8)
     assert "friends.csv" in str(caught.value)
 

@@ -32,9 +32,9 @@ def test_places_lie_on_their_shapes_and_within_their_arc(arc):
 
 @pytest.mark.parametrize("kind", ["independent", "alike in neighbours"])
 def test_errors_have_their_size_whoever_they_agree_with(kind):
-    found = errors(np.random.default_rng(0), (400, 60, 2), 0.3, kind=kind)
-    assert found.std() == pytest.approx(0.3, rel=0.02)
-    next_one = (found[:, 1:] * found[:, :-1]).mean() / found.var()
+    noise = errors(np.random.default_rng(0), (400, 60, 2), 0.3, kind=kind)
+    assert noise.std() == pytest.approx(0.3, rel=0.02)
+    next_one = (noise[:, 1:] * noise[:, :-1]).mean() / noise.var()
     assert next_one == pytest.approx(0.0 if kind == "independent" else 0.9, abs=0.03)
 
 
@@ -63,10 +63,10 @@ def test_a_drawn_disc_has_its_rim():
 
 def test_a_rim_is_in_its_own_radii_and_has_windows_all_round():
     v, u = np.mgrid[:80, :100]
-    found = find_rim(np.where(np.hypot(u - 52, v - 41) < 20, 200, 30).astype(np.uint8), (52, 41))
-    assert (*found.center, found.radius) == pytest.approx((52, 41, 20), abs=0.5)
-    np.testing.assert_allclose(np.linalg.norm(found.p, axis=1), 1, atol=0.05)
-    windows = found.windows(90.0)
+    rim = find_rim(np.where(np.hypot(u - 52, v - 41) < 20, 200, 30).astype(np.uint8), (52, 41))
+    assert (*rim.center, rim.radius) == pytest.approx((52, 41, 20), abs=0.5)
+    np.testing.assert_allclose(np.linalg.norm(rim.p, axis=1), 1, atol=0.05)
+    windows = rim.windows(90.0)
     assert windows.shape == (12, 90, 2)
     middles = np.unwrap(np.arctan2(*windows.mean(axis=1).T[::-1]))
     np.testing.assert_allclose(np.abs(np.diff(middles)), np.pi / 6, atol=0.05)

@@ -115,17 +115,17 @@ def test_what_stands_on_an_axis_has_it_upwards(lift, kind, up):
 
 @given(st.floats(1e-6, 1e6))
 def test_round_below_is_round_and_below(length):
-    found = round_below(length)
-    assert found <= length * (1 + 1e-6)
-    assert length < 2.5 * found * (1 + 1e-6)
-    assert f"{found:.3e}"[:5] in ("1.000", "2.000", "5.000")
+    rounded = round_below(length)
+    assert rounded <= length * (1 + 1e-6)
+    assert length < 2.5 * rounded * (1 + 1e-6)
+    assert f"{rounded:.3e}"[:5] in ("1.000", "2.000", "5.000")
 
 
 @pytest.mark.parametrize(
-    ("length", "found"), [(1.0, 1.0), (0.1, 0.1), (0.5 / 0.024, 20.0), (9.99, 5.0), (0.3, 0.2)]
+    ("length", "rounded"), [(1.0, 1.0), (0.1, 0.1), (0.5 / 0.024, 20.0), (9.99, 5.0), (0.3, 0.2)]
 )
-def test_round_below(length, found):
-    assert round_below(length) == pytest.approx(found, rel=1e-12)
+def test_round_below(length, rounded):
+    assert round_below(length) == pytest.approx(rounded, rel=1e-12)
 
 
 def test_a_grid_has_lines_both_ways_in_its_cells():

@@ -195,15 +195,15 @@ def test_a_garbled_file_is_a_result_or_one_line(tmp_path, capfd, case):
             try:
                 read(path)
             except InputError as error:
-                said = str(error)
-                assert path.name in said
-                assert said.isprintable()
-                assert len(said) < 400
+                message = str(error)
+                assert path.name in message
+                assert message.isprintable()
+                assert len(message) < 400
     assert capfd.readouterr() == ("", "")
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "said"),
+    ("name", "content", "message"),
     [
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "names a vertex that is not there"),
         ("a.obj", b"v 0 0 0\nf 1 -7 2\nv 1 0 0\n", "names a vertex that is not there"),
@@ -214,7 +214,7 @@ def test_a_garbled_file_is_a_result_or_one_line(tmp_path, capfd, case):
         ),
     ],
 )
-def test_a_face_that_names_no_vertex_is_told_so(tmp_path, name, content, *, said):
+def test_a_face_that_names_no_vertex_is_told_so(tmp_path, name, content, *, message):
     (tmp_path / name).write_bytes(content)
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read_mesh(tmp_path / name)

@@ -43,8 +43,8 @@ class Runs:
         return Path.touch, (self.trace,)
 
 
-def refused(read: Callable, path: Path, said: str) -> None:
-    with pytest.raises(InputError, match=said) as caught:
+def refused(read: Callable, path: Path, message: str) -> None:
+    with pytest.raises(InputError, match=message) as caught:
         read(path)
     assert str(caught.value).isprintable()
 
@@ -83,13 +83,13 @@ def test_text_that_is_no_table_is_refused_in_one_line(tmp_path, reader):
     for k, text in enumerate(TEXTS):
         path = tmp_path / f"own{k}.csv"
         path.write_text(text, encoding="utf-8")
-        said = path.name
+        message = path.name
         try:
             TEXT_READERS[reader](path)
         except InputError as error:
-            said = str(error)
-        assert said.isprintable(), text
-        assert path.name in said, text
+            message = str(error)
+        assert message.isprintable(), text
+        assert path.name in message, text
 
 
 @pytest.mark.parametrize("reader", READERS)
@@ -222,7 +222,7 @@ def test_a_zip_of_pictures_writes_nothing_and_does_not_unpack_to_much(tmp_path, 
     shown = pictures_of(path, names_in(path)).shown(0, 100)
     assert shown is not None
     assert shown.shape == (3, 4)
-    assert [one.name for one in tmp_path.iterdir()] == ["p.zip"]
+    assert [entry.name for entry in tmp_path.iterdir()] == ["p.zip"]
     with allowing(replace(COMMAND, unpacked=10**5)):
         refused(lambda path: pictures_of(path, ("large.png",)), path, "too large")
     Path("broken.zip").write_bytes(path.read_bytes()[:-30])

@@ -41,10 +41,11 @@ def test_every_hit_lies_on_what_was_hit():
 
 def test_the_rings_move_with_the_scanner_and_the_street_does_not():
     T = motion(exp_so3(np.array([0.0, 0.0, 0.1])), np.array([0.5, 0.0, 0.0]))
-    one, two = lidar_pair(T, np.random.default_rng(3), rings=16, columns=100, noise=0.0)
+    first, second = lidar_pair(T, np.random.default_rng(3), rings=16, columns=100, noise=0.0)
     again, _ = lidar_pair(T, np.random.default_rng(3), rings=16, columns=100, noise=0.0)
-    np.testing.assert_array_equal(one, again)
+    np.testing.assert_array_equal(first, again)
     radii = [
-        set(np.hypot(p[:, 0], p[:, 1])[np.abs(p[:, 2] + 1.73) < 1e-9].round(6)) for p in (one, two)
+        set(np.hypot(p[:, 0], p[:, 1])[np.abs(p[:, 2] + 1.73) < 1e-9].round(6))
+        for p in (first, second)
     ]
     assert radii[0] == radii[1]  # each in its own frame

@@ -18,15 +18,15 @@ def test_arrays_in_their_two_forms(tmp_path, p):
         F=2 * np.eye(3),
     )
     np.savez(tmp_path / "one.npz", matches=p, quality=np.arange(12), H=np.ones((3, 3)))
-    two, one = read_matches(tmp_path / "two.npz"), read_matches(tmp_path / "one.npz")
+    two, joined = read_matches(tmp_path / "two.npz"), read_matches(tmp_path / "one.npz")
     np.testing.assert_allclose(two.p, p, rtol=1e-6)
-    np.testing.assert_array_equal(one.p, p)
+    np.testing.assert_array_equal(joined.p, p)
     assert two.quality is None
     assert two.H is None
     assert two.F is not None
     assert np.linalg.norm(two.F) == pytest.approx(1)
-    np.testing.assert_array_equal(one.quality, np.arange(12.0))
-    assert one.H is not None
+    np.testing.assert_array_equal(joined.quality, np.arange(12.0))
+    assert joined.H is not None
 
 
 @pytest.mark.parametrize(
@@ -39,9 +39,9 @@ def test_text_with_and_without_names_and_quality(tmp_path, p, separator, *, head
     file.write_text(
         head + "\n".join(separator.join(map(repr, map(float, [*row, 0.5]))) for row in p)
     )
-    found = read_matches(file)
-    np.testing.assert_array_equal(found.p, p)
-    np.testing.assert_array_equal(found.quality, np.full(12, 0.5))
+    matches = read_matches(file)
+    np.testing.assert_array_equal(matches.p, p)
+    np.testing.assert_array_equal(matches.quality, np.full(12, 0.5))
 
 
 def test_bad_files_say_why(tmp_path, p):
@@ -75,6 +75,6 @@ def test_bad_files_say_why(tmp_path, p):
 
 
 def test_the_real_pair(shared_data):
-    found = read_matches(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
-    assert found.p.shape == (1445, 4)
-    assert found.F is not None
+    matches = read_matches(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
+    assert matches.p.shape == (1445, 4)
+    assert matches.F is not None

@@ -48,32 +48,32 @@ def test_a_folder_and_its_zip_hold_the_same(folder):
     packed = Path(shutil.make_archive(str(folder), "zip", folder.parent, "home"))
     assert [Path(name).name for name in names_in(packed)] == list(names_in(folder))
     for view in range(3):
-        one, two = (
+        first, second = (
             pictures_of(path, matched(path, (), 3)).shown(view, 100) for path in (folder, packed)
         )
-        assert one is not None
-        assert two is not None
-        np.testing.assert_array_equal(one, two)
-        assert one.shape == (30, 40)
+        assert first is not None
+        assert second is not None
+        np.testing.assert_array_equal(first, second)
+        assert first.shape == (30, 40)
 
 
 def test_a_picture_is_upright_and_as_large_as_is_shown(tmp_path):
     picture(tmp_path / "a.jpg", size=(400, 300), turned=6)
-    one = pictures_of(tmp_path / "a.jpg", (None, "a.jpg"))
-    assert one.size == (300, 400)
-    assert one.shown(0, 100) is None
+    pictures = pictures_of(tmp_path / "a.jpg", (None, "a.jpg"))
+    assert pictures.size == (300, 400)
+    assert pictures.shown(0, 100) is None
     for most, shape in ((100, (100, 75)), (1000, (400, 300))):
-        shown = one.shown(1, most)
+        shown = pictures.shown(1, most)
         assert shown is not None
         assert shown.shape == shape
 
 
 def test_it_is_decoded_once_and_again_when_it_changed(folder):
-    found = pictures_of(folder, names_in(folder))
-    first = found.shown(1, 100)
-    assert found.shown(1, 100) is first
+    pictures = pictures_of(folder, names_in(folder))
+    first = pictures.shown(1, 100)
+    assert pictures.shown(1, 100) is first
     picture(folder / "v2.jpg", 250, (40, 31))
-    again = found.shown(1, 100)
+    again = pictures.shown(1, 100)
     assert again is not None
     assert again.min() > 240
 
@@ -91,9 +91,9 @@ def test_what_is_refused(folder):
     (folder / "v3.png").write_bytes(
         (folder / "v3.png").read_bytes()[:600]
     )  # its size can be read, its pixels cannot
-    found = pictures_of(folder, names_in(folder))
+    pictures = pictures_of(folder, names_in(folder))
     with pytest.raises(InputError, match=r"v3.png: not readable as an image"):
-        found.shown(2, 100)
+        pictures.shown(2, 100)
     (folder / "v3.png").unlink()
     shutil.copy(folder / "v2.jpg", folder / "v2.png")
     with pytest.raises(InputError, match="two pictures are called v2"):

@@ -52,15 +52,15 @@ def test_the_truth_fits_the_true_rows_and_the_noise_is_as_asked_for(name):
 
 @pytest.mark.parametrize("name", list(MAKERS))
 def test_a_scene_is_reproducible_shuffled_and_trusts_inliers_more(name):
-    one, two = (
+    first, second = (
         MAKERS[name](np.random.default_rng(2), count=300, outlier_ratio=0.4, sigma=0.01)
         for _ in range(2)
     )
-    np.testing.assert_array_equal(one.p, two.p)
-    half = one.is_inlier[3:150].mean(), one.is_inlier[150:].mean()
+    np.testing.assert_array_equal(first.p, second.p)
+    half = first.is_inlier[3:150].mean(), first.is_inlier[150:].mean()
     assert abs(half[0] - half[1]) < 0.2
-    assert one.quality[one.is_inlier].mean() > one.quality[~one.is_inlier].mean() + 0.15
-    assert one.quality[~one.is_inlier].max() > one.quality[one.is_inlier].min()
+    assert first.quality[first.is_inlier].mean() > first.quality[~first.is_inlier].mean() + 0.15
+    assert first.quality[~first.is_inlier].max() > first.quality[first.is_inlier].min()
 
 
 def test_matches_lie_in_both_pictures():

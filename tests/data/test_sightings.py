@@ -17,7 +17,7 @@ T = look_at(np.array([2.0, -3.0, 2.0]), np.zeros(3))
 
 def test_noise_and_outliers_are_as_many_and_as_large_as_asked_for():
     p = np.random.default_rng(0).uniform(-1, 1, (500, 3))
-    found = seen(
+    sightings = seen(
         p,
         T,
         K,
@@ -25,8 +25,8 @@ def test_noise_and_outliers_are_as_many_and_as_large_as_asked_for():
         sigma=2.0,
         is_outlier=some_of(500, 0.3, np.random.default_rng(2)),
     )
-    assert found.is_outlier.sum() == 150
-    off = (found.uv - project(p, T, K))[~found.is_outlier]
+    assert sightings.is_outlier.sum() == 150
+    off = (sightings.uv - project(p, T, K))[~sightings.is_outlier]
     assert off.std() == pytest.approx(2.0, rel=0.1)
     none = np.zeros(500, bool)
     np.testing.assert_allclose(
@@ -62,9 +62,9 @@ def test_random_points_are_seen_by_rotated_cameras():
 def test_rows_are_read(tmp_path, lines):
     path = tmp_path / "points.csv"
     path.write_text(lines)
-    found = read_sightings(path)
-    np.testing.assert_array_equal(found.p_world, [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    np.testing.assert_array_equal(found.uv, [[1, 2], [3, 4], [5, 6], [7, 8]])
+    sightings = read_sightings(path)
+    np.testing.assert_array_equal(sightings.p_world, [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    np.testing.assert_array_equal(sightings.uv, [[1, 2], [3, 4], [5, 6], [7, 8]])
 
 
 @pytest.mark.parametrize(

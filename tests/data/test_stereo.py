@@ -39,8 +39,8 @@ def test_the_right_picture_shows_what_the_truth_says(scene, doffs):
     pair = made(scene, StereoCamera(300.0, 79.5, 59.5, 0.1, doffs))
     v, u = np.nonzero(pair.visible & inner(pair.disparity))
     assert len(u) > 5000
-    there = scipy.ndimage.map_coordinates(grey(pair.right), [v, u - pair.disparity[v, u]], order=1)
-    difference = np.abs(there - grey(pair.left)[v, u])
+    right = scipy.ndimage.map_coordinates(grey(pair.right), [v, u - pair.disparity[v, u]], order=1)
+    difference = np.abs(right - grey(pair.left)[v, u])
     assert np.median(difference) < 3.0
     assert np.percentile(difference, 98) < 25.0
 
@@ -88,8 +88,8 @@ def test_a_plane_is_linear_in_disparity_and_boards_are_where_they_say():
     assert np.abs(np.diff(wall, axis=1)).min() > 1e-3
     pair = made("boards at three depths", StereoCamera(700.0, 79.5, 59.5, 0.12))
     depth = depth_from_disparity(pair.disparity, 700.0, 0.12)
-    found, count = np.unique(np.round(depth, 9), return_counts=True)
-    assert found.tolist() == [1.0, 5.0, 20.0, np.inf]
+    depths, count = np.unique(np.round(depth, 9), return_counts=True)
+    assert depths.tolist() == [1.0, 5.0, 20.0, np.inf]
     assert count.min() > 1500
     assert pair.visible[np.isfinite(depth)].mean() > 0.95
 
@@ -103,11 +103,11 @@ def test_the_ball_bulges_as_a_sphere_does():
 
 
 def test_seeds_decide_and_noise_differs_between_the_pictures():
-    one, same, other = made("planes", seed=1), made("planes", seed=1), made("planes", seed=2)
-    assert np.array_equal(one.left, same.left)
-    assert np.array_equal(one.right, same.right)
-    assert not np.array_equal(one.left, other.left)
-    assert np.array_equal(one.disparity, other.disparity)
+    first, same, other = made("planes", seed=1), made("planes", seed=1), made("planes", seed=2)
+    assert np.array_equal(first.left, same.left)
+    assert np.array_equal(first.right, same.right)
+    assert not np.array_equal(first.left, other.left)
+    assert np.array_equal(first.disparity, other.disparity)
     noisy = made("plain wall", noise=4.0)
     bare = grey(noisy.left)[40:80, 40:80], grey(noisy.right)[40:80, 30:70]
     assert np.std(bare[0]) == pytest.approx(4.0 * np.linalg.norm([0.299, 0.587, 0.114]), rel=0.1)
@@ -123,9 +123,9 @@ def test_the_motorcycle_is_what_its_readme_says():
     assert np.nanmax(pair.disparity) < 60
     assert np.isnan(pair.disparity).mean() == pytest.approx(0.0735, abs=0.001)
     v, u = np.nonzero(pair.visible & inner(np.nan_to_num(pair.disparity)))
-    there = scipy.ndimage.map_coordinates(grey(pair.right), [v, u - pair.disparity[v, u]], order=1)
+    right = scipy.ndimage.map_coordinates(grey(pair.right), [v, u - pair.disparity[v, u]], order=1)
     assert (
-        np.median(np.abs(there - grey(pair.left)[v, u])) < 3.0
+        np.median(np.abs(right - grey(pair.left)[v, u])) < 3.0
     )  # left-referenced, and the sign is right
 
 

@@ -96,11 +96,11 @@ def test_regular_grids_have_nearly_square_cells():
 
 
 def test_jitter_is_reproducible_and_leaves_borders_alone():
-    one, two = (plane(100, jitter=0.2, rng=np.random.default_rng(7)) for _ in range(2))
-    np.testing.assert_array_equal(one.p, two.p)
+    first, second = (plane(100, jitter=0.2, rng=np.random.default_rng(7)) for _ in range(2))
+    np.testing.assert_array_equal(first.p, second.p)
     border = np.abs(plane(100).p).max(axis=1) == 1
-    np.testing.assert_array_equal(np.abs(one.p[border, :2]).max(axis=1), 1)
-    assert np.abs(one.p - plane(100).p)[~border].max() > 0.01
+    np.testing.assert_array_equal(np.abs(first.p[border, :2]).max(axis=1), 1)
+    assert np.abs(first.p - plane(100).p)[~border].max() > 0.01
 
 
 def test_scaled_surfaces_and_noise():

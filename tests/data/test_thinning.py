@@ -10,14 +10,14 @@ from workbench.data.thinning import evenly, every, growing, some_points, spacing
 @given(seed=st.integers(0, 99), size=st.floats(0.05, 3.0))
 def test_one_mean_for_each_occupied_voxel(seed, size):
     p = np.random.default_rng(seed).normal(size=(200, 3))
-    found = voxel_means(p, size)
+    means = voxel_means(p, size)
     voxels = {}
     for row, voxel in zip(
         p, map(tuple, np.floor((p - p.min(axis=0)) / size).astype(int).tolist()), strict=True
     ):
         voxels.setdefault(voxel, []).append(row)
     wanted = np.array([np.mean(voxels[voxel], axis=0) for voxel in sorted(voxels)])
-    np.testing.assert_allclose(found, wanted, atol=1e-12)
+    np.testing.assert_allclose(means, wanted, atol=1e-12)
 
 
 def test_moved_points_have_moved_means_also_far_from_the_origin():

@@ -14,16 +14,16 @@ from workbench.geometry.motions import apply, exp_so3, inverse
 from workbench.geometry.two_views.epipolar import fundamental_from_cameras, sampson_distances
 
 
-def street(what: What = "street", count=60, sigma=0.0, *, baseline=1.0, heading=0.0, seed=0):
+def street(scene: What = "street", count=60, sigma=0.0, *, baseline=1.0, heading=0.0, seed=0):
     return made_views(
-        what, count, sigma, baseline=baseline, heading=heading, rng=np.random.default_rng(seed)
+        scene, count, sigma, baseline=baseline, heading=heading, rng=np.random.default_rng(seed)
     )
 
 
-@pytest.mark.parametrize("what", ["street", "far"])
+@pytest.mark.parametrize("scene", ["street", "far"])
 @pytest.mark.parametrize("heading", [0.0, 0.35, np.pi / 2, np.pi])
-def test_matches_are_pictures_of_their_points(what, heading):
-    views = street(what, heading=heading)
+def test_matches_are_pictures_of_their_points(scene, heading):
+    views = street(scene, heading=heading)
     assert views.p_first is not None
     assert views.T_second_first is not None
     np.testing.assert_allclose(
@@ -59,9 +59,9 @@ def test_the_far_scene_is_far_and_stands_on_its_valley():
     assert (skyline().edges[..., 2] > VALLEY - 1e-9).all()
 
 
-@pytest.mark.parametrize("what", ["street", "far"])
-def test_pictures_agree_at_matches(what):
-    views = street(what, count=300)
+@pytest.mark.parametrize("scene", ["street", "far"])
+def test_pictures_agree_at_matches(scene):
+    views = street(scene, count=300)
     first, second = views.images
     assert first is not None
     assert second is not None
@@ -77,9 +77,9 @@ def test_pictures_agree_at_matches(what):
 def test_every_knob_has_its_matches():
     for baseline in (0.0, 2.0):
         for heading in (0.0, 90.0, 180.0):
-            for what in get_args(What):
+            for scene in get_args(What):
                 assert (
-                    len(street(what, 500, baseline=baseline, heading=np.radians(heading)).matches)
+                    len(street(scene, 500, baseline=baseline, heading=np.radians(heading)).matches)
                     == 500
                 )
     with pytest.raises(InputError, match="in common"):
@@ -96,10 +96,10 @@ def test_what_a_file_says_of_the_cameras_is_read(tmp_path):
     R = exp_so3(np.array([0.1, 0.2, 0.0]))
     t = np.array([1.0, 2.0, 3.0])
     K = np.array([[500.0, 0, 250], [0, 500, 250], [0, 0, 1]])
-    found = read_matches(written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], K=K, R=R, t=t))
-    np.testing.assert_array_equal(found.K_first, found.K_second)
-    assert found.T_second_first is not None
-    np.testing.assert_allclose(found.T_second_first[:3, 3], t)
+    matches = read_matches(written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], K=K, R=R, t=t))
+    np.testing.assert_array_equal(matches.K_first, matches.K_second)
+    assert matches.T_second_first is not None
+    np.testing.assert_allclose(matches.T_second_first[:3, 3], t)
     views = own_views(
         written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], K1=K, K2=2 * K - np.diag([0, 0, 1.0])),
         None,

@@ -13,8 +13,8 @@ HEADERS = {
 
 def numbers(machine: str) -> dict[str, str]:
     """Return the numbers of a machine's system calls by name."""
-    there = [Path(name) for name in HEADERS[machine] if Path(name).exists()]
-    if not there:
+    headers = [Path(name) for name in HEADERS[machine] if Path(name).exists()]
+    if not headers:
         pytest.skip("the kernel's headers are not installed")
-    known = dict(re.findall(r"#define __NR(?:3264)?_(\w+)\s+(\d+)", there[0].read_text()))
+    known = dict(re.findall(r"#define __NR(?:3264)?_(\w+)\s+(\d+)", headers[0].read_text()))
     return {"newfstatat": known.get("fstatat", "")} | known

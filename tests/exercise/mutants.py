@@ -69,12 +69,15 @@ def changed(exercise: Exercise, *, table: bool) -> Iterator[Changed]:
     """Yield all mutants of an exercise's alternatives, with `table` of all right solutions; helpers
     are changed once.
     """
-    found = [(sys.modules[one.__module__], one.__name__) for one in exercise.alternatives]
+    functions = [
+        (sys.modules[alternative.__module__], alternative.__name__)
+        for alternative in exercise.alternatives
+    ]
     if table:
         solutions = importlib.import_module(f"tests.exercise.solutions.{exercise.name}")
-        found += [(solutions, name) for name in vars(solutions) if name.startswith("right_")]
+        functions += [(solutions, name) for name in vars(solutions) if name.startswith("right_")]
     done = set[tuple[str, str]]()
-    for module, name in found:
+    for module, name in functions:
         parts = _functions(module)
         for part in _used(parts, name):
             if (module.__name__, part) not in done:
@@ -89,24 +92,24 @@ def changed(exercise: Exercise, *, table: bool) -> Iterator[Changed]:
 def _functions(module: ModuleType) -> dict[str, ast.FunctionDef]:
     """Return a module's functions, those that are checks, mistakes or contracts left out."""
     tree = ast.parse(inspect.getsource(module))
-    found = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
+    functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
     return {
         node.name: node
-        for node in found
-        if [ast.unparse(one) for one in node.decorator_list] in ([], ["alternative"])
+        for node in functions
+        if [ast.unparse(decorator) for decorator in node.decorator_list] in ([], ["alternative"])
     }
 
 
 def _used(parts: dict[str, ast.FunctionDef], name: str) -> list[str]:
     """Return the names of a function and of those that it calls, in its module."""
-    found = []
+    used = []
     waiting = [name]
     while waiting:
         part = waiting.pop()
-        if part in parts and part not in found:
-            found.append(part)
+        if part in parts and part not in used:
+            used.append(part)
             waiting += [node.id for node in ast.walk(parts[part]) if isinstance(node, ast.Name)]
-    return found
+    return used
 
 
 def _made(
@@ -162,7 +165,7 @@ def _spoilt(value: Any) -> Any:
     return kept
 
 
-HELPERS = {one.__name__: one for one in (_ones, _ones_of, _reversed, _single, _spoilt)}
+HELPERS = {helper.__name__: helper for helper in (_ones, _ones_of, _reversed, _single, _spoilt)}
 
 
 # grading ------------------------------------------------------------------------------------------
@@ -179,7 +182,9 @@ def loses(function: Function, exercise: Exercise) -> bool:
                 return True
         except Exception:  # as in grading: what cannot be judged earns nothing
             return True
-    return any(one.looks_at_inputs for one in asked) and any(one.changing for one in asked)
+    return any(judged.looks_at_inputs for judged in asked) and any(
+        judged.changing for judged in asked
+    )
 
 
 def limited(function: Function, seconds: float = SECONDS) -> Function:
@@ -203,21 +208,21 @@ def limited(function: Function, seconds: float = SECONDS) -> Function:
     return called
 
 
-def differs(one: Changed) -> tuple[Any, ...] | None:
+def differs(case: Changed) -> tuple[Any, ...] | None:
     """Return arguments on which a mutant's answer is not the right one; None where none are known.
 
     They are those of the checks, and variants of them: smaller, larger, with noise, fewer rows,
     another order, negative. One counts where all right functions agree on it, so that what the
     contract does not allow does not count.
     """
-    kind = np.float32 if one.mutant.operator == "float32" else None
+    kind = np.float32 if case.mutant.operator == "float32" else None
     until = time.process_time() + SEARCHED
-    for args, right in agreed(one.exercise):
+    for args, right in agreed(case.exercise):
         if time.process_time() > until:
             break
-        if not _is_right(one.right, args, right, exercise=one.exercise):
+        if not _is_right(case.right, args, right, exercise=case.exercise):
             continue
-        if not _is_right(limited(one.function), args, right, exercise=one.exercise, kind=kind):
+        if not _is_right(limited(case.function), args, right, exercise=case.exercise, kind=kind):
             return args
     return None
 
@@ -265,7 +270,7 @@ def agreed(exercise: Exercise) -> list[tuple[tuple[Any, ...], Any]]:
         asked += [call.args for call in candidate.calls]
     rng = np.random.default_rng(len(asked))
     more = [made for args in asked for made in _variants(args, rng)]
-    found = []
+    pairs = []
     for args in asked + random.Random(exercise.name).sample(more, min(MOST_VARIANTS, len(more))):
         first = _answer(limited(exercise.reference, SECONDS_OF_A_RIGHT_ONE), args)
         answers = (
@@ -276,8 +281,8 @@ def agreed(exercise: Exercise) -> list[tuple[tuple[Any, ...], Any]]:
             not isinstance(answer, Exception) and _alike(answer, first, exercise)
             for answer in answers
         ):
-            found.append((args, first))
-    return found
+            pairs.append((args, first))
+    return pairs
 
 
 def _variants(args: tuple[Any, ...], rng: np.random.Generator) -> Iterator[tuple[Any, ...]]:
@@ -330,8 +335,8 @@ def row(name: str, *, table: bool = False, most: int | None = None) -> Row:
     every = list(changed(exercise, table=table))
     if most is not None:
         every = random.Random(name).sample(every, min(most, len(every)))
-    surviving = [one for one in every if not loses(one.function, exercise)]
-    alive = tuple(str(one) for one in surviving if differs(one) is not None)
+    surviving = [case for case in every if not loses(case.function, exercise)]
+    alive = tuple(str(case) for case in surviving if differs(case) is not None)
     return Row(name, len(every) - len(surviving), len(surviving) - len(alive), alive)
 
 
@@ -360,18 +365,18 @@ def main(arguments: list[str]) -> None:
         multiprocessing.Pool(min(2, os.cpu_count() or 1)) as pool,
         contextlib.suppress(KeyboardInterrupt),
     ):
-        for found in pool.imap(
+        for tally in pool.imap(
             functools.partial(row, table="--table" in arguments, most=most), wanted
         ):
             counted = [
-                found.losing + found.equal + len(found.alive),
-                found.losing,
-                found.equal,
-                len(found.alive),
+                tally.losing + tally.equal + len(tally.alive),
+                tally.losing,
+                tally.equal,
+                len(tally.alive),
             ]
             total += counted
-            write(line.format(found.exercise, *counted))
-            for survivor in found.alive:
+            write(line.format(tally.exercise, *counted))
+            for survivor in tally.alive:
                 write("" if survivor in known else f"  ! {survivor}\n")
             sys.stdout.flush()
     write(line.format("all", *total))

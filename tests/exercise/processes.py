@@ -15,7 +15,7 @@ def family(first: int) -> set[int]:
             continue
         if parts[0] != "Z":
             parents[int(entry.name)] = int(parts[1]), int(parts[3])
-    found = {pid for pid, (_, session) in parents.items() if first in (pid, session)}
-    while more := {pid for pid, (parent, _) in parents.items() if parent in found} - found:
-        found |= more
-    return found
+    pids = {pid for pid, (_, session) in parents.items() if first in (pid, session)}
+    while more := {pid for pid, (parent, _) in parents.items() if parent in pids} - pids:
+        pids |= more
+    return pids

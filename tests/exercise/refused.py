@@ -82,8 +82,8 @@ def euler_to_matrix__scipy_turn_by_turn(angles, order):
     refuse(order)
     total = Rotation.identity()
     for letter, a in zip(order, angles, strict=True):
-        one = Rotation.from_euler(letter.lower(), float(a))
-        total = one * total if letter.islower() else total * one
+        turn = Rotation.from_euler(letter.lower(), float(a))
+        total = turn * total if letter.islower() else total * turn
     return total.as_matrix()
 
 

@@ -99,8 +99,8 @@ def chamfer__pure_python(p_a, p_b):
     if not len(p_a) or not len(p_b):
         raise ValueError("empty")
     a, b = p_a.tolist(), p_b.tolist()
-    one = sum(min(math.dist(x, y) for y in b) ** 2 for x in a) / len(a)
-    return one + sum(min(math.dist(x, y) for x in a) ** 2 for y in b) / len(b)
+    a_to_b = sum(min(math.dist(x, y) for y in b) ** 2 for x in a) / len(a)
+    return a_to_b + sum(min(math.dist(x, y) for x in a) ** 2 for y in b) / len(b)
 
 
 def chamfer_gradient__trees(p, q):
@@ -282,7 +282,7 @@ def euler_to_matrix__matrix_exponential(angles, order):
     fixed, own = order == order.lower(), order == order.upper()
     if len(order) != 3 or not (fixed or own) or any(letter not in "xyzXYZ" for letter in order):
         raise ValueError(order)
-    if any(one == other for one, other in itertools.pairwise(order)):
+    if any(axis == other for axis, other in itertools.pairwise(order)):
         raise ValueError(order)
     R = np.eye(3)
     for letter, angle in zip(order.lower(), angles, strict=True):
@@ -378,7 +378,7 @@ def great_circle_distance__vincenty(a, b, radius):
 def harris_response__eigenvalues(image):
     smooth = ndimage.gaussian_filter(image, 1)
     gu, gv = ndimage.sobel(smooth, 1) / 8, ndimage.sobel(smooth, 0) / 8
-    A, B, C = (ndimage.gaussian_filter(one, 1.5) for one in (gu * gu, gu * gv, gv * gv))
+    A, B, C = (ndimage.gaussian_filter(product, 1.5) for product in (gu * gu, gu * gv, gv * gv))
     first, second = np.linalg.eigvalsh(
         np.moveaxis(np.array([[A, B], [B, C]]), (0, 1), (2, 3))
     ).transpose(2, 0, 1)
@@ -487,12 +487,12 @@ def meet__determinants(lines_a, lines_b):
 
 def mutual_matches__loops(a, b, ratio):
     D = np.sqrt(((a[:, None, :] - b[None, :, :]) ** 2).sum(-1))
-    found = []
+    matches = []
     for i in range(len(a)):
         j = int(D[i].argmin())
         second = np.delete(D[i], j).min()
-        found.append(j if D[:, j].argmin() == i and D[i, j] < ratio * second else -1)
-    return found
+        matches.append(j if D[:, j].argmin() == i and D[i, j] < ratio * second else -1)
+    return matches
 
 
 def one_sided__tree(p_a, p_b):

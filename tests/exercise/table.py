@@ -66,9 +66,9 @@ class Graded:
         """What became of it: one of FATES."""
         if self.is_right or self.report.is_full:
             return "full" if self.report.is_full else "less"
-        said = None if self.report.mistake is None else self.report.mistake.name
-        if said is not None:
-            return "named" if said == self.named else "misnamed"
+        mistake = None if self.report.mistake is None else self.report.mistake.name
+        if mistake is not None:
+            return "named" if mistake == self.named else "misnamed"
         return "vague" if any(map(is_vague, self.report.outcomes)) else "useful"
 
 
@@ -117,26 +117,28 @@ def graded_strangers() -> Iterator[Graded]:
                 yield Graded(f"right_{kind}", report, None)
 
 
-def complaints(found: list[Graded]) -> list[str]:
+def complaints(solutions: list[Graded]) -> list[str]:
     """Return what is not as it should be: a line for each solution."""
     lines = []
-    for one in found:
+    for solution in solutions:
         good = (
-            one.fate == "full"
-            if one.is_right
-            else one.fate == "named"
-            if one.named
-            else one.fate in ("useful", "vague")
+            solution.fate == "full"
+            if solution.is_right
+            else solution.fate == "named"
+            if solution.named
+            else solution.fate in ("useful", "vague")
         )
         if not good:
-            asked = f", not {one.named}" if one.named else ""
-            lines.append(f"{one.name}: {one.fate}{asked}\n{terminal(one.report)}")
+            asked = f", not {solution.named}" if solution.named else ""
+            lines.append(f"{solution.name}: {solution.fate}{asked}\n{terminal(solution.report)}")
     return lines
 
 
-def counts(found: list[Graded]) -> Counter[str]:
+def counts(solutions: list[Graded]) -> Counter[str]:
     """Return how many had which fate, right ones and wrong ones apart."""
-    return Counter(f"{'right' if one.is_right else 'wrong'} {one.fate}" for one in found)
+    return Counter(
+        f"{'right' if solution.is_right else 'wrong'} {solution.fate}" for solution in solutions
+    )
 
 
 def main(arguments: list[str]) -> None:
@@ -151,16 +153,16 @@ def main(arguments: list[str]) -> None:
             FOLDER / f"{exercise.name}.py"
         ).exists():
             continue
-        found = list(graded(exercise))
-        total += counts(found)
+        solutions = list(graded(exercise))
+        total += counts(solutions)
         write(
             f"{exercise.name:26}"
-            + "".join(f"{counts(found)[column]:16}" for column in columns)
+            + "".join(f"{counts(solutions)[column]:16}" for column in columns)
             + "\n"
         )
-        for one in found if "--said" in arguments else ():
-            write(f"\n{one.name}: {one.fate}\n{terminal(one.report)}\n")
-        for line in complaints(found) if "--said" not in arguments else ():
+        for solution in solutions if "--said" in arguments else ():
+            write(f"\n{solution.name}: {solution.fate}\n{terminal(solution.report)}\n")
+        for line in complaints(solutions) if "--said" not in arguments else ():
             write(f"  ! {line}\n")
     write(f"{'all':26}" + "".join(f"{total[column]:16}" for column in columns) + "\n")
 

@@ -378,14 +378,14 @@ def test_its_message_has_no_answer_in_it(wall):
 
 
 def test_one_submission_sees_nothing_of_another(wall):
-    one = submitted(
+    leaving = submitted(
         "open('left.txt', 'w').write('x')\nimport sys; sys.modules['left'] = 1\nreturn 1"
     )
     other = submitted(
         "import os, sys\nreturn int('left' in sys.modules or os.path.exists('left.txt'))"
     )
     with (
-        SandboxedFunction(one, "centroid", wall=wall) as first,
+        SandboxedFunction(leaving, "centroid", wall=wall) as first,
         SandboxedFunction(other, "centroid", wall=wall) as second,
     ):
         for _ in range(2):

@@ -33,9 +33,9 @@ def asked_for(answer, right, *args) -> str:
     ],
 )
 def test_what_came_is_told_in_words(answer, kind):
-    said = asked_for(answer, np.zeros((3, 3)), np.zeros(99))
-    assert f"returned {kind}; the contract asks for an array (3, 3) of numbers" in said
-    assert said.endswith("Is a return missing?") == (kind in ("nothing", "a text"))
+    message = asked_for(answer, np.zeros((3, 3)), np.zeros(99))
+    assert f"returned {kind}; the contract asks for an array (3, 3) of numbers" in message
+    assert message.endswith("Is a return missing?") == (kind in ("nothing", "a text"))
 
 
 @pytest.mark.parametrize(
@@ -71,14 +71,16 @@ def test_a_short_question_is_told_with_what_is_wrong_in_the_answer(args, asked):
 def test_an_answer_is_of_the_plain_kind_that_is_asked_for(answer, right, plain):
     got = held_to_contract(answer, right, "f")
     assert type(got) is type(plain)
-    for one, wanted in zip(got, plain, strict=True) if isinstance(plain, tuple) else [(got, plain)]:
-        assert type(one) is type(wanted)
-        assert np.asarray(one).dtype == np.asarray(wanted).dtype
-        np.testing.assert_array_equal(one, wanted)
+    for value, wanted in (
+        zip(got, plain, strict=True) if isinstance(plain, tuple) else [(got, plain)]
+    ):
+        assert type(value) is type(wanted)
+        assert np.asarray(value).dtype == np.asarray(wanted).dtype
+        np.testing.assert_array_equal(value, wanted)
 
 
 @pytest.mark.parametrize(
-    ("answer", "right", "said"),
+    ("answer", "right", "message"),
     [
         (1.0, 1, "returned float64 values; the contract asks for a whole number"),
         (1, True, "returned int64 values; the contract asks for true or false"),
@@ -104,10 +106,10 @@ def test_an_answer_is_of_the_plain_kind_that_is_asked_for(answer, right, plain):
         (1.0, (1.0, 2.0), "f returned a number; the contract asks for 2 values"),
     ],
 )
-def test_another_kind_is_told_with_the_first_place_where_it_is(answer, right, said):
+def test_another_kind_is_told_with_the_first_place_where_it_is(answer, right, message):
     with pytest.raises(StudentError) as told:
         held_to_contract(answer, right, "f")
-    assert said in str(told.value)
+    assert message in str(told.value)
 
 
 def test_where_the_right_answer_is_infinite_so_may_the_student_s_be():

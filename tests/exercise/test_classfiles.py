@@ -11,10 +11,10 @@ def check(name: str, points: float, kind: str = "", *, message: str = "") -> dic
 
 
 def report(exercise: str, *checks: dict[str, Any], mistake: str = "") -> dict[str, Any]:
-    wrong = [one["name"] for one in checks if one["points"] < 2.0]
+    wrong = [entry["name"] for entry in checks if entry["points"] < 2.0]
     return {
         "exercise": exercise,
-        "points": sum(one["points"] for one in checks),
+        "points": sum(entry["points"] for entry in checks),
         "possible": 2.0 * len(checks),
         "checks": list(checks),
         "mistake": {"name": mistake, "sentence": f"You {mistake}.", "checks": wrong[:1]}
@@ -60,7 +60,7 @@ def test_an_assignment_counts_its_exercises_and_nothing_else():
     assert lines[0] == "student,points,possible,b,a,trouble"
     assert lines[1:3] == ["ada,11,11,10,1,", "bob,0.25,11,,0.25,a hangs in 1 check"]
     assert class_csv(CLASS[:1], {"a": 1.0}).splitlines()[1] == "ada,1,1,1,b is not asked for"
-    assert [is_full(one, {"a": 1.0}) for one in CLASS] == [True, False, False, False, False]
+    assert [is_full(result, {"a": 1.0}) for result in CLASS] == [True, False, False, False, False]
     assert not is_full(handed("max", FULL), {"a": 1.0, "c": 1.0})
     assert not is_full(handed("max", FULL, ungraded=[lost("c", 1, "no")]))
     assert not is_full(handed("max"))

@@ -65,15 +65,15 @@ def test_a_class_graded_twice_gives_equal_bytes(tmp_path):
     write_class(tmp_path / "in", 10)
     for out, jobs in (("one", 1), ("two", 3)):
         classroom.grade_class(tmp_path / "in", tmp_path / out, jobs=jobs)
-    one, two = (
+    first, second = (
         {
             path.relative_to(tmp_path / out).as_posix(): path.read_bytes()
             for path in (tmp_path / out).rglob("*.*")
         }
         for out in ("one", "two")
     )
-    assert len(one) == 13
-    assert one == two
+    assert len(first) == 13
+    assert first == second
 
 
 def test_a_file_that_changed_is_graded_again(tmp_path):
@@ -156,14 +156,14 @@ def test_a_scheduler_that_is_not_there_is_told_in_one_line(monkeypatch):
     def nobody(address, timeout):
         raise TimeoutError(address)
 
-    for package, said in (
+    for package, message in (
         (None, "--dask needs the package `distributed`: pip install distributed"),
         (types.SimpleNamespace(Client=nobody), "--dask tcp://it: no scheduler answers there"),
     ):
         monkeypatch.setitem(sys.modules, "distributed", package)
         with pytest.raises(InputError) as told, contextlib.ExitStack() as stack:
             classroom._dask_executor("tcp://it", stack)
-        assert str(told.value) == said
+        assert str(told.value) == message
 
 
 def test_a_class_is_graded_where_the_scheduler_says(monkeypatch):
@@ -188,9 +188,9 @@ def test_a_class_is_graded_where_the_scheduler_says(monkeypatch):
 
 def test_a_result_s_file_is_named_by_signs_that_every_system_takes():
     names = ["ada", "a b", "a_b", "A_B", "é.-", "x" * 99, "../y", "z?", "z?" * 60]
-    found = classroom.stems(dict.fromkeys(names))
-    assert [name for name in names if found[name] == name] == ["ada", "é.-"]
-    assert all(re.fullmatch(r"[\w.-]{1,89}", stem) for stem in found.values())
-    assert len({stem.casefold() for stem in found.values()}) == len(names)
-    assert found["z?"].startswith("z_-")
+    stems = classroom.stems(dict.fromkeys(names))
+    assert [name for name in names if stems[name] == name] == ["ada", "é.-"]
+    assert all(re.fullmatch(r"[\w.-]{1,89}", stem) for stem in stems.values())
+    assert len({stem.casefold() for stem in stems.values()}) == len(names)
+    assert stems["z?"].startswith("z_-")
     assert classroom.stems({"a_b": None}) == {"a_b": "a_b"}

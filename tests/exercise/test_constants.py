@@ -61,9 +61,9 @@ def test_no_constant_and_no_input_returned_earns_over_a_quarter(exercise, monkey
         for number in NUMBERS
     }
     functions["its input"] = answering(exercise, its_own_input)
-    for what, function in functions.items():
+    for answer, function in functions.items():
         report = grade_function(function, exercise)
-        assert report.points <= SHARE * report.possible, f"{what}\n{terminal(report)}"
+        assert report.points <= SHARE * report.possible, f"{answer}\n{terminal(report)}"
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])

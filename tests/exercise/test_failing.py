@@ -32,9 +32,9 @@ def handed(tmp_path):
 
 def test_the_default_run_comes_first_and_a_few_steps_beyond_the_difference(handed):
     with SandboxedFunction(handed, "align_rigid") as student:
-        found = failing_run(find_exercise("align_rigid"), student)
-    assert found is not None
-    timeline, at = found
+        run = failing_run(find_exercise("align_rigid"), student)
+    assert run is not None
+    timeline, at = run
     assert timeline.params == ICP.params()
     assert (at, len(timeline), timeline.finished) == (1, at + AFTER + 1, False)
 
@@ -44,9 +44,9 @@ def test_the_preset_that_a_function_is_watched_at_comes_before_the_default(hande
     exercise = find_exercise("point_to_plane_step")
     assert exercise.contract.preset == "plane"
     with SandboxedFunction(handed, "point_to_plane_step") as student:
-        found = failing_run(exercise, student)
-    assert found is not None
-    assert found[0].params == ICP.preset("plane").params
+        run = failing_run(exercise, student)
+    assert run is not None
+    assert run[0].params == ICP.preset("plane").params
 
 
 def test_the_recording_lies_beside_the_file_or_where_it_is_wanted(handed, tmp_path):

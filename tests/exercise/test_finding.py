@@ -23,20 +23,20 @@ def few(monkeypatch):
     monkeypatch.setattr(finding, "exercises", lambda: known)
 
 
-def of(file: str, *defines: str, said: tuple[str, ...] = (), broken: str = "") -> Submission:
-    return Submission(file, "", said=said, defines=frozenset(defines), broken=broken)
+def of(file: str, *defines: str, named: tuple[str, ...] = (), broken: str = "") -> Submission:
+    return Submission(file, "", said=named, defines=frozenset(defines), broken=broken)
 
 
 @pytest.mark.parametrize(
     ("given", "names"),
     [
         (of("a.py", "pose", "match"), []),
-        (of("a.py", "pose", "match", said=("match",)), ["match"]),
-        (of("a.py", "pose", said=("match", "none")), ["match"]),
-        (of("a.py", said=("none",)), []),
+        (of("a.py", "pose", "match", named=("match",)), ["match"]),
+        (of("a.py", "pose", named=("match", "none")), ["match"]),
+        (of("a.py", named=("none",)), []),
         (of("my_match.py", "match"), ["match"]),
-        (of("my_match.py", "match", "pose", said=("pose",)), ["pose"]),
-        (of("my_match.py", "match", said=("pose",)), ["match"]),
+        (of("my_match.py", "match", "pose", named=("pose",)), ["pose"]),
+        (of("my_match.py", "match", named=("pose",)), ["match"]),
         (of("week 3/Match (2).py", "match", "pose"), ["match"]),
         (of("match_and_pose.py", "match", "pose"), ["match", "pose"]),
         (of("my_pose_step.py", "pose", "pose_step"), ["pose_step"]),
@@ -50,11 +50,11 @@ def of(file: str, *defines: str, said: tuple[str, ...] = (), broken: str = "") -
     ],
 )
 def test_a_file_says_what_it_is_for_in_its_first_line_or_its_name(given, names):
-    assert [one.name for one in said_for(given)] == names
+    assert [exercise.name for exercise in said_for(given)] == names
 
 
 @pytest.mark.parametrize(
-    ("given", "found"),
+    ("given", "expected"),
     [
         (of("a.py", "pose", "match", "other"), ["pose", "match"]),
         (of("my_match.py", "pose", "match"), ["match"]),
@@ -69,14 +69,14 @@ def test_a_file_says_what_it_is_for_in_its_first_line_or_its_name(given, names):
         ),
     ],
 )
-def test_a_file_is_graded_for_what_it_says_or_else_for_what_it_defines(given, found):
-    if isinstance(found, list):
-        assert [one.name for one in exercises_in(given)] == found
+def test_a_file_is_graded_for_what_it_says_or_else_for_what_it_defines(given, expected):
+    if isinstance(expected, list):
+        assert [exercise.name for exercise in exercises_in(given)] == expected
     else:
         with pytest.raises(InputError) as told:
             exercises_in(given)
-        assert found in str(told.value)
-        assert str(told.value).endswith("another name") or "another name" not in found
+        assert expected in str(told.value)
+        assert str(told.value).endswith("another name") or "another name" not in expected
 
 
 def test_where_there_are_no_exercises_that_is_said(monkeypatch):
@@ -96,15 +96,17 @@ def test_names_are_those_of_a_lesson_where_one_is_given():
     assert "match" in finding.known(lesson)
     assert "harris_response" not in finding.known(lesson)
     assert finding.exercises_in_folder(fake.lesson) == ()
-    assert list(finding.known(lesson)) == [one.name for one in finding.exercises_of(lesson)]
+    assert list(finding.known(lesson)) == [
+        exercise.name for exercise in finding.exercises_of(lesson)
+    ]
 
 
 def test_exercises_are_in_the_order_of_the_run_s_keywords():
     for lesson in course().values():
-        found = finding.exercises_of(lesson)
-        slots = [lesson.form.slots.index(one.contract.slot) for one in found]
+        exercises = finding.exercises_of(lesson)
+        slots = [lesson.form.slots.index(exercise.contract.slot) for exercise in exercises]
         assert slots == sorted(slots)
-        assert finding.usable()[lesson.name] == found
+        assert finding.usable()[lesson.name] == exercises
 
 
 def test_somebody_else_s_exercises_take_none_of_the_course_down(monkeypatch):
@@ -113,7 +115,7 @@ def test_somebody_else_s_exercises_take_none_of_the_course_down(monkeypatch):
     with pytest.warns(LeftOutWarning, match="exercise match of lesson other .* is taken by lesson"):
         kept = finding._not_taken(lesson, places)
     assert kept
-    assert "match" not in [one.name for one in kept]
+    assert "match" not in [exercise.name for exercise in kept]
     assert places[kept[0].name] == "lesson other (lessons.icp.inputs)"
 
     def stumbles(lesson):
@@ -131,8 +133,10 @@ def test_two_lessons_of_the_course_have_no_exercise_of_one_name(monkeypatch):
     monkeypatch.setattr(
         finding, "_of_course", lambda name: finding.exercises_in_folder(twice[name])
     )
-    said = r"^exercise \w+ is in lesson icp \(lessons.icp.inputs\) and in lesson other .*: rename"
-    with pytest.raises(InputError, match=said):
+    message = (
+        r"^exercise \w+ is in lesson icp \(lessons.icp.inputs\) and in lesson other .*: rename"
+    )
+    with pytest.raises(InputError, match=message):
         finding.usable.__wrapped__()
 
 

@@ -70,10 +70,10 @@ def read(text: str, modules: dict[str, str] | None = None) -> Submission:
 
 @pytest.mark.parametrize("head", USES)
 def test_what_is_forbidden_is_seen_however_it_is_named(head):
-    said = forbidden_use(read(f"{head}\n{USES[head]}"), STRICT)
-    assert said.startswith("my_centroid.py, line ")
-    assert "is forbidden for centroid" in said
-    assert "\n" not in said
+    message = forbidden_use(read(f"{head}\n{USES[head]}"), STRICT)
+    assert message.startswith("my_centroid.py, line ")
+    assert "is forbidden for centroid" in message
+    assert "\n" not in message
     assert not forbidden_use(read(f"{head}\n{USES[head]}"), EXERCISE)
 
 
@@ -85,8 +85,8 @@ def test_what_is_allowed_earns_full_marks_whatever_it_imports_itself(head):
 
 def test_a_module_beside_the_file_is_read_too():
     modules = {"helper.py": "import numpy\nfrom scipy import spatial\n"}
-    said = forbidden_use(read("import helper\n" + ANSWER.format("p.mean(0)"), modules), STRICT)
-    assert said.startswith("helper.py, line 2: uses scipy.spatial")
+    message = forbidden_use(read("import helper\n" + ANSWER.format("p.mean(0)"), modules), STRICT)
+    assert message.startswith("helper.py, line 2: uses scipy.spatial")
 
 
 def test_nothing_of_such_a_file_is_run_and_it_earns_nothing():
@@ -144,8 +144,8 @@ def test_every_exercise_that_forbids_something_says_so_in_its_starter():
     }
     for exercise in exercises().values():
         text = " ".join(starter(exercise).split())
-        said = f"It may not use {' or '.join(exercise.contract.forbid)}, which solves the task"
-        assert (said in text) == bool(exercise.contract.forbid)
+        sentence = f"It may not use {' or '.join(exercise.contract.forbid)}, which solves the task"
+        assert (sentence in text) == bool(exercise.contract.forbid)
 
 
 def test_a_class_and_a_terminal_are_told_in_one_line(tmp_path, monkeypatch, capsys):
@@ -156,8 +156,8 @@ def test_a_class_and_a_terminal_are_told_in_one_line(tmp_path, monkeypatch, caps
     assert {check["kind"] for check in report["checks"]} == {"forbidden"}
     (tmp_path / "my_centroid.py").write_text(text)
     assert main(["check", str(tmp_path / "my_centroid.py"), "-o", str(tmp_path / "out")]) == 1
-    said = capsys.readouterr().out
-    assert said.count("is forbidden for centroid") == 1
+    printed = capsys.readouterr().out
+    assert printed.count("is forbidden for centroid") == 1
     assert not list(tmp_path.glob("*.rrd"))
     assert main(["grade", str(tmp_path), "--jobs", "1"]) == 1
     assert "is forbidden for centroid" in (tmp_path / "graded" / "class.csv").read_text()

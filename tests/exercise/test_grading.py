@@ -65,7 +65,7 @@ def test_a_verdict_is_a_share(share):
 
 
 @pytest.mark.parametrize(
-    ("value", "expected", "said"),
+    ("value", "expected", "message"),
     [
         (np.zeros(2), np.zeros(3), r"an array \(2,\).*asks for an array \(3,\)"),
         (np.zeros(3), np.zeros(3, int), "float64 values.*whole numbers"),
@@ -76,8 +76,8 @@ def test_a_verdict_is_a_share(share):
         ([[1, 2], [3]], np.zeros((2, 2)), "unequal length"),
     ],
 )
-def test_an_answer_is_held_to_the_contract(value, expected, said):
-    with pytest.raises(StudentError, match=said):
+def test_an_answer_is_held_to_the_contract(value, expected, message):
+    with pytest.raises(StudentError, match=message):
         held_to_contract(value, expected, "f")
 
 
@@ -115,9 +115,9 @@ def test_junit_that_jenkins_would_refuse_is_found():
         '<testsuite name="a" tests="2" failures="0" errors="0"><testcase/><failure'
         ' x="1"/>text</testsuite>'
     )
-    found = "; ".join(departures(ET.fromstring(text.replace("/>text", "/>"))))
-    for said in ("testsuite holds", "testcase has []", "failure has ['x']", "tests of a is 2"):
-        assert said in found
+    complaints = "; ".join(departures(ET.fromstring(text.replace("/>text", "/>"))))
+    for complaint in ("testsuite holds", "testcase has []", "failure has ['x']", "tests of a is 2"):
+        assert complaint in complaints
 
 
 def test_files_for_machines_agree_with_the_report(tmp_path):
@@ -161,17 +161,17 @@ def test_marks_without_a_wall_say_so_in_every_report(tmp_path, monkeypatch, caps
     assert "nothing is installed" in capsys.readouterr().err
     assert not (tmp_path / "in" / "graded").exists()
     assert main(["grade", str(tmp_path / "in"), "--sandbox", "none"]) in (0, 1)
-    said = (tmp_path / "in" / "graded" / "summary.md").read_text()
-    assert reports.UNSAFE in said
+    summary = (tmp_path / "in" / "graded" / "summary.md").read_text()
+    assert reports.UNSAFE in summary
     assert (
         json.loads((tmp_path / "in" / "graded" / "students" / "ada.json").read_text())["sandbox"]
         == "none"
     )
     out = tmp_path / "one"
     main(["check", str(tmp_path / "in" / "ada.py"), "--sandbox", "none", "-o", str(out)])
-    said = capsys.readouterr()
-    assert "runs without a sandbox" in said.err
-    assert reports.UNSAFE in said.out
+    printed = capsys.readouterr()
+    assert "runs without a sandbox" in printed.err
+    assert reports.UNSAFE in printed.out
     for name in ("results.json", "junit.xml", "summary.md"):
         assert reports.UNSAFE in (out / name).read_text(), name
 
@@ -360,7 +360,7 @@ def test_errors_are_input_errors():
 
 
 @pytest.mark.parametrize(
-    ("got", "right", "said"),
+    ("got", "right", "message"),
     [
         (0.64, -0.64, "0.64, right is −0.64"),
         (1.00001, 1.0, "1.00001, right is 1"),
@@ -369,6 +369,6 @@ def test_errors_are_input_errors():
         (np.nan, 1.0, "nan, right is 1"),
     ],
 )
-def test_numbers_that_differ_are_written_so_that_they_differ(got, right, said):
-    assert against(got, right) == said
-    assert f"{said}. Look." in beside(got, right, "Look.")
+def test_numbers_that_differ_are_written_so_that_they_differ(got, right, message):
+    assert against(got, right) == message
+    assert f"{message}. Look." in beside(got, right, "Look.")

@@ -140,8 +140,8 @@ def test_a_student_has_one_row_and_it_counts_out_of_all_that_was_handed_in(tmp_p
         "eve/my_centroid.py": "def centroid(p:\n",
     }
     results = graded(tmp_path, files)
-    found = {row["student"]: row for row in rows(tmp_path)}
-    assert found["ada"] | {"trouble": ""} == {
+    students = {row["student"]: row for row in rows(tmp_path)}
+    assert students["ada"] | {"trouble": ""} == {
         "student": "ada",
         "points": "5",
         "possible": "8",
@@ -150,20 +150,20 @@ def test_a_student_has_one_row_and_it_counts_out_of_all_that_was_handed_in(tmp_p
         "handed in": "",
         "trouble": "",
     }
-    assert found["eve"]["handed in"] == "fake 1 of 2"
+    assert students["eve"]["handed in"] == "fake 1 of 2"
     assert "- fake 1 of 2: 1 student\n" in (tmp_path / "out" / "summary.md").read_text()
-    assert (found["bob"]["points"], found["bob"]["possible"], found["bob"]["middle"]) == (
+    assert (students["bob"]["points"], students["bob"]["possible"], students["bob"]["middle"]) == (
         "4",
         "8",
         "0",
     )
-    assert "my_middle.py, line 1" in found["bob"]["trouble"]
-    assert (found["eve"]["points"], found["eve"]["possible"], found["eve"]["middle"]) == (
+    assert "my_middle.py, line 1" in students["bob"]["trouble"]
+    assert (students["eve"]["points"], students["eve"]["possible"], students["eve"]["middle"]) == (
         "0",
         "4",
         "",
     )
-    assert "'" not in found["eve"]["middle"]
+    assert "'" not in students["eve"]["middle"]
     checks = {row["student"]: row for row in rows(tmp_path, "matrix.csv")}
     asked = [name for name in checks["eve"] if name.startswith("middle.")]
     assert asked
@@ -189,8 +189,8 @@ def test_words_of_a_files_name_say_what_it_is_for(tmp_path):
         "sue/12_centroid_and_middle.py": both,
     }
     results = graded(tmp_path, files)
-    found = {name: points(result) for name, result in results.items()}
-    assert found == {
+    earned = {name: points(result) for name, result in results.items()}
+    assert earned == {
         "ada": {"centroid": 4.0},
         "bob": {"middle": 1.0},
         "eve": {"centroid": 4.0},
@@ -349,9 +349,9 @@ def test_who_handed_in_nothing_has_a_row(tmp_path, text):
 def test_a_class_is_read_before_anything_runs(tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "ada.py").write_text(RIGHT)
-    found = handed_in(tmp_path / "in")
+    hand_ins = handed_in(tmp_path / "in")
     (tmp_path / "in" / "ada.py").write_text(WRONG)
-    assert found["ada"].files == {"ada.py": RIGHT.encode()}
+    assert hand_ins["ada"].files == {"ada.py": RIGHT.encode()}
 
 
 def test_what_changed_is_graded_again(tmp_path, monkeypatch):

@@ -27,17 +27,17 @@ pytestmark = pytest.mark.skipif(
 def until(seen, seconds: float = 300.0):
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        found = seen()
-        if found:
-            return found
+        result = seen()
+        if result:
+            return result
         time.sleep(0.05)
     raise AssertionError("it did not come to that")
 
 
 def sandboxed(first: int) -> set[int]:
     """Return all processes under the grader, once one of them is a student's that was started."""
-    found = family(first) - {first}
-    return found if any(b"/main.py" in _command(pid) for pid in found) else set()
+    pids = family(first) - {first}
+    return pids if any(b"/main.py" in _command(pid) for pid in pids) else set()
 
 
 def _command(pid: int) -> bytes:
@@ -88,10 +88,10 @@ def grading(tmp_path):
 def test_interrupted_it_ends_with_a_word_and_goes_on_later(grading, how):
     process, pids, folder = grading
     process.send_signal(how)
-    _, said = process.communicate(timeout=300)  # 1.1 s on a machine with nothing else to do
+    _, stderr = process.communicate(timeout=300)  # 1.1 s on a machine with nothing else to do
     assert process.returncode == 130
-    assert b"Interrupted" in said
-    assert b"Traceback" not in said
+    assert b"Interrupted" in stderr
+    assert b"Traceback" not in stderr
     until(lambda: not there(pids))
     assert list((folder / "tmp").iterdir()) == []
     assert (

@@ -41,7 +41,7 @@ def test_an_angle_between_rotations_is_exact_about_every_axis(axis, degrees):
 
 
 @pytest.mark.parametrize(
-    ("R", "share", "said"),
+    ("R", "share", "message"),
     [
         (turned(2, 0.05), 1.0, "Rotation error 0.05 degrees, within 0.1"),
         (turned(2, 1.5), 0.5, "close"),
@@ -52,15 +52,15 @@ def test_an_angle_between_rotations_is_exact_about_every_axis(axis, degrees):
         (np.diag([2.0, 1.0, 0.5]), 0.0, r"R is no rotation: .* identity by 3\. "),
     ],
 )
-def test_a_rotation_is_judged_by_its_angle_and_must_be_one(R, share, said):
+def test_a_rotation_is_judged_by_its_angle_and_must_be_one(R, share, message):
     verdict = rotation_verdict(R, np.eye(3), "Look.")
     assert verdict.share == share
-    assert re.search(said, verdict.message)
+    assert re.search(message, verdict.message)
     assert share == 1.0 or verdict.message.endswith("Look.")
 
 
 @pytest.mark.parametrize(
-    ("T", "share", "said"),
+    ("T", "share", "message"),
     [
         (motion(turned(0, 0.05), (5e-4, 0, 0)), 1.0, "Position error 0.0005 m, within 0.001 m."),
         (motion(np.eye(3), (0, 0, 0.01)), 0.5, "The rotation is right; the last column is (0, 0, "),
@@ -70,10 +70,10 @@ def test_a_rotation_is_judged_by_its_angle_and_must_be_one(R, share, said):
         (RIGHT + np.eye(4)[[3]].T @ [[0, 0, 0, 1.0]], 0.0, "The last row of T is (0, 0, 0, 2)"),
     ],
 )
-def test_a_motion_earns_what_the_worse_of_turn_and_place_earns(T, share, said):
+def test_a_motion_earns_what_the_worse_of_turn_and_place_earns(T, share, message):
     verdict = motion_verdict(T, RIGHT, "Look.")
     assert verdict.share == share
-    assert said in verdict.message
+    assert message in verdict.message
 
 
 def test_a_last_row_is_right_within_rounding():
@@ -126,7 +126,7 @@ LONG = np.array([1_000_000, *6 * [10_000], *5 * [100_000]])
 
 
 @pytest.mark.parametrize(
-    ("value", "said"),
+    ("value", "message"),
     [
         (None, "gave nothing"),
         (np.zeros(2), "gave an answer ([0. 0.])"),
@@ -135,10 +135,10 @@ LONG = np.array([1_000_000, *6 * [10_000], *5 * [100_000]])
         (10 * LONG, f"gave an answer ([{' '.join(map(str, 10 * LONG))[:76]}...)"),
     ],
 )
-def test_an_answer_where_an_error_was_asked_for_is_told(value, said):
+def test_an_answer_where_an_error_was_asked_for_is_told(value, message):
     verdict = refused(lambda _: value, 0, what="No point")
     assert verdict.share == 0.0
-    assert said in verdict.message
+    assert message in verdict.message
     assert len(refused(lambda _: np.arange(999.0).reshape(9, 111), 0, what="").message) < 150
 
 
@@ -149,7 +149,7 @@ def test_inputs_left_alone_by_a_wrong_answer_earn_nothing():
 
 
 @pytest.mark.parametrize(
-    ("args", "said"),
+    ("args", "message"),
     [
         ((np.ones(2), np.array([[np.nan]])), "an array with nan in it that"),
         ((np.ones(2), np.array([np.inf, 1.0])), "an array with inf in it that"),
@@ -158,14 +158,14 @@ def test_inputs_left_alone_by_a_wrong_answer_earn_nothing():
         ((np.array(["a"]), [1.0]), "an array that"),
     ],
 )
-def test_who_changed_an_array_is_told_which_kind(args, said):
+def test_who_changed_an_array_is_told_which_kind(args, message):
     verdict = changed(args)
     assert verdict.share == 0.0
-    assert said in verdict.message
+    assert message in verdict.message
 
 
 @pytest.mark.parametrize(
-    ("got", "right", "said"),
+    ("got", "right", "message"),
     [
         ([1.0, 2.0], [1.0, 2.0], "Look."),
         ([1.0], [1.0, 2.0], "Look."),
@@ -181,8 +181,8 @@ def test_who_changed_an_array_is_told_which_kind(args, said):
         ([[1.0, 2, 3, 9]] * 2, [[1.0, 2, 3, 4]] * 2, "[0, 3] is 9, right is 4. Look."),
     ],
 )
-def test_a_hint_stands_behind_the_two_numbers_that_differ_most(got, right, said):
-    assert beside(got, right, "Look.").startswith(said)
+def test_a_hint_stands_behind_the_two_numbers_that_differ_most(got, right, message):
+    assert beside(got, right, "Look.").startswith(message)
 
 
 def test_a_hint_names_what_it_tells_of():

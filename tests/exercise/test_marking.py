@@ -195,10 +195,14 @@ def test_what_goes_wrong_with_one_student_is_a_line_of_the_result(monkeypatch):
 def test_what_does_not_load_is_not_graded_and_what_is_missing_costs_its_points():
     handed = HandIn("ada", {"w/my_centroid.py": b"1 / 0\n" + RIGHT.encode()})
     (part,) = chosen(handed, Asked()).graded
-    said = marked(part, Wall("none"))
-    assert isinstance(said, dict)
-    assert (said["file"], said["exercise"], said["possible"]) == ("w/my_centroid.py", "centroid", 4)
-    assert "ZeroDivisionError" in said["error"]
+    ungraded = marked(part, Wall("none"))
+    assert isinstance(ungraded, dict)
+    assert (ungraded["file"], ungraded["exercise"], ungraded["possible"]) == (
+        "w/my_centroid.py",
+        "centroid",
+        4,
+    )
+    assert "ZeroDivisionError" in ungraded["error"]
     assert not_handed_in(EXERCISE)["error"] == "centroid: not handed in"
     asked = Asked(only=("centroid", "middle"), sandbox="none")
     result = grade_student(HandIn("ada", {}, (("", "nothing"),)), asked)

@@ -51,7 +51,7 @@ def test_a_number_and_the_right_one_have_digits_enough_to_differ():
 
 
 @pytest.mark.parametrize(
-    ("value", "share", "said"),
+    ("value", "share", "message"),
     [
         (0.1, 1.0, "Error 0.1 m, within 0.1 m."),
         (0.2, 0.5, "Error 0.2 m: close, full marks need 0.1 m. Look."),
@@ -59,11 +59,11 @@ def test_a_number_and_the_right_one_have_digits_enough_to_differ():
         (np.inf, 0.0, "Error inf m, which is no number to judge. Look."),
     ],
 )
-def test_a_band_earns_all_half_or_nothing(value, share, said):
+def test_a_band_earns_all_half_or_nothing(value, share, message):
     verdict = band("Error", value, "m", good=0.1, fair=0.2, hint="Look.")
-    assert (verdict.share, verdict.message) == (share, said)
+    assert (verdict.share, verdict.message) == (share, message)
     bare = band("Off by", value, "", good=0.1, fair=0.2, hint="Look.")
-    assert bare.message == re.sub(r" m\b", "", said).replace("Error", "Off by")
+    assert bare.message == re.sub(r" m\b", "", message).replace("Error", "Off by")
 
 
 def test_a_verdict_says_something():
@@ -114,8 +114,8 @@ def test_an_exercise_is_what_its_file_defines_itself():
     }
     made = exercise_in(module("turn", **borrowed, **parts()), "fake", module("turn", **hidden()))
     assert (made.name, made.lesson, made.task) == ("turn", "fake", "Do it well.")
-    assert [one.name for one in made.checks] == ["judge", "more"]
-    assert [one.sentence for one in made.mistakes] == ["You slipped."]
+    assert [part.name for part in made.checks] == ["judge", "more"]
+    assert [slip.sentence for slip in made.mistakes] == ["You slipped."]
     assert len(made.alternatives) == 1
     assert (made.points, made.file, made.reference(3)) == (5, "my_turn.py", 3)
 

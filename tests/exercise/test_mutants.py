@@ -17,9 +17,9 @@ SAMPLE = 5  # mutants of each exercise: some ten seconds of processor time for a
 
 @pytest.mark.parametrize("name", exercises())
 def test_no_wrong_mutant_earns_full_marks(name):
-    found = row(name, most=SAMPLE)
-    assert not set(found.alive) - accepted()
-    assert found.losing + found.equal + len(found.alive) == SAMPLE
+    tally = row(name, most=SAMPLE)
+    assert not set(tally.alive) - accepted()
+    assert tally.losing + tally.equal + len(tally.alive) == SAMPLE
 
 
 def test_operators_make_the_slips_of_students():

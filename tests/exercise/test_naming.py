@@ -77,12 +77,12 @@ def test_a_mistake_in_most_of_the_failing_checks_is_named_and_they_are_told():
     def two_mistakes(p):
         return of_sum(p) if p[0, 0] < 5 else p[0] * 0.3
 
-    one, other, third = map(asking, (ROWS, ROWS + 1, ROWS + 9))
-    found = report(two_mistakes, PLAIN, checks=(one, other, third))
-    assert found.mistake is PLAIN
-    assert found.concerned == {one.name, other.name}
-    assert report(two_mistakes, PLAIN, checks=(one, third)).mistake is None
-    assert report(two_mistakes, SPARING, checks=(one, other, third)).mistake is None
+    first, other, third = map(asking, (ROWS, ROWS + 1, ROWS + 9))
+    graded = report(two_mistakes, PLAIN, checks=(first, other, third))
+    assert graded.mistake is PLAIN
+    assert graded.concerned == {first.name, other.name}
+    assert report(two_mistakes, PLAIN, checks=(first, third)).mistake is None
+    assert report(two_mistakes, SPARING, checks=(first, other, third)).mistake is None
 
 
 def test_one_answer_is_enough_where_nothing_else_was_answered():
@@ -119,14 +119,14 @@ def test_numbers_that_chance_would_hardly_give_speak_louder_than_whole_ones():
         judge.__name__ = f"counts_{n}"
         return check(1)(judge)
 
-    def named(one):
+    def named(slip):
         exercise = replace(
             EXERCISE,
             contract=contract(slot="turn")(len),
             checks=(counts(3), counts(5), counts(4)),
-            mistakes=(one,),
+            mistakes=(slip,),
         )
-        return grade_function(lambda p: one.function(p) if len(p) % 2 else -1, exercise).mistake
+        return grade_function(lambda p: slip.function(p) if len(p) % 2 else -1, exercise).mistake
 
     assert named(half) is half
     assert named(one_more) is None

@@ -43,8 +43,11 @@ def spent() -> float:
     """Return the processor time of this process and of those that it started and that ended,
     seconds.
     """
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    return sum(one.ru_utime + one.ru_stime for one in used)
+    used = [
+        resource.getrusage(processes)
+        for processes in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+    ]
+    return sum(usage.ru_utime + usage.ru_stime for usage in used)
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -67,13 +70,14 @@ def test_one_that_hangs_costs_the_others_nothing_and_many_cost_no_more_than_thre
     files = {"a.py": PARTS, "my_match.py": RIGHT, **{f"z{k}.py": PARTS for k in range(20)}}
     handed = HandIn("ada", {name: text.encode() for name, text in files.items()})
     began = spent()
-    found = chosen(handed, Asked())
+    choice = chosen(handed, Asked())
     assert spent() - began < 5.0 * MOST_LOST
-    assert [part.file for part in found.graded] == ["my_match.py"]
-    said = [item["error"] for item in found.troubles]
-    assert said[0] == "a.py: takes too long or too much memory to read as Python"
+    assert [part.file for part in choice.graded] == ["my_match.py"]
+    errors = [item["error"] for item in choice.troubles]
+    assert errors[0] == "a.py: takes too long or too much memory to read as Python"
     assert (
-        sum("not read, since 3 other files" in line for line in said) == len(files) - 1 - MOST_LOST
+        sum("not read, since 3 other files" in line for line in errors)
+        == len(files) - 1 - MOST_LOST
     )
 
 
@@ -103,14 +107,14 @@ def test_each_request_may_use_so_many_seconds_of_the_processor():
     reading.main()
     """
     asked = json.dumps({"file": "a.py", "content": ""}) + "\n"
-    said = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-c", textwrap.dedent(lines)],
         input=3 * asked,
         text=True,
         capture_output=True,
         check=True,
     )
-    assert said.stdout == "{}\n" * 3
+    assert process.stdout == "{}\n" * 3
 
 
 def test_no_process_stays_behind():
@@ -209,8 +213,8 @@ def test_of_a_notebook_definitions_stay_in_their_lines():
 
 
 def test_a_last_cell_that_is_no_python_is_told_with_its_line():
-    found = reading.read("A.IPYNB", notebook("def f(p):\n    return p", "x = 1\ndef f(:"))
-    assert found["broken"] == "A.IPYNB, line 4: invalid syntax"
+    parsed = reading.read("A.IPYNB", notebook("def f(p):\n    return p", "x = 1\ndef f(:"))
+    assert parsed["broken"] == "A.IPYNB, line 4: invalid syntax"
 
 
 def test_a_tagged_cell_counts_wherever_else_it_is_defined():

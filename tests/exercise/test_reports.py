@@ -88,8 +88,8 @@ def test_a_result_is_plain_data():
 
 
 def test_gradescope_is_told_what_counts_how_much_and_who_may_see_it():
-    said = reports.gradescope([HALF, SUM], [LOST], factors={"centroid": 2.5}, notes=["late"])
-    scores = [(test["score"], test["max_score"], test["status"]) for test in said["tests"]]
+    results = reports.gradescope([HALF, SUM], [LOST], factors={"centroid": 2.5}, notes=["late"])
+    scores = [(test["score"], test["max_score"], test["status"]) for test in results["tests"]]
     whole = [(2.5, 5.0, "failed"), (2.5, 2.5, "passed"), (2.5, 2.5, "passed")]
     assert scores[:3] == whole
     assert scores[3:] == [
@@ -98,15 +98,15 @@ def test_gradescope_is_told_what_counts_how_much_and_who_may_see_it():
         (0, 2.5, "failed"),
         (0, 10.0, "failed"),
     ]
-    assert said["score"] == 10.0
-    seen = [test["visibility"] for test in said["tests"]]
+    assert results["score"] == 10.0
+    seen = [test["visibility"] for test in results["tests"]]
     assert seen == ["visible", "visible", "after_published"] * 2 + ["visible"]
-    assert said["output"].splitlines()[:3] == [
+    assert results["output"].splitlines()[:3] == [
         "b.py, line 1: no Python",
         "late",
         "centroid printed:",
     ]
-    assert said["output"].endswith(reports.UNSAFE)
+    assert results["output"].endswith(reports.UNSAFE)
     plain = reports.gradescope([HALF], hidden="after_due_date")
     assert [test["max_score"] for test in plain["tests"]] == [2, 1, 1]
     assert plain["tests"][2]["visibility"] == "after_due_date"
@@ -124,7 +124,7 @@ def test_junit_has_a_suite_per_function_and_an_error_where_none_was_run():
         ("centroid", "1", "0", "1"),
     ]
     cases = [case.find("failure") for case in root.iter("testcase")]
-    assert [None if one is None else one.get("type") for one in cases] == [
+    assert [None if failure is None else failure.get("type") for failure in cases] == [
         "partial",
         None,
         None,

@@ -53,8 +53,8 @@ def student(tmp_path):
         return made[-1]
 
     yield make
-    for one in made:
-        one.close()
+    for function in made:
+        function.close()
 
 
 def test_an_honest_function_gives_plain_values(student):
@@ -95,12 +95,12 @@ ATTACKS = {
 
 @pytest.mark.parametrize("name", ATTACKS)
 def test_an_attack_costs_its_own_call_only(student, name):
-    body, kind, said = ATTACKS[name]
+    body, kind, message = ATTACKS[name]
     function = student(body)
     if kind is None:
         assert function(POINTS) is None
     else:
-        with pytest.raises(StudentError, match=said) as caught:
+        with pytest.raises(StudentError, match=message) as caught:
             function(POINTS)
         assert caught.value.kind == kind
         assert "\n" not in str(caught.value)
@@ -203,15 +203,15 @@ def test_changed_input_is_noticed_and_ours_is_untouched(student):
 
 
 @pytest.mark.parametrize(
-    ("head", "said"),
+    ("head", "message"),
     [
         ("x = = 1", "line 2.*SyntaxError"),
         ("1 / 0", "line 2.*ZeroDivisionError"),
         ("import nothing_such", "ModuleNotFoundError"),
     ],
 )
-def test_a_file_that_does_not_load_names_the_line(student, head, said):
-    with pytest.raises(StudentError, match=said):
+def test_a_file_that_does_not_load_names_the_line(student, head, message):
+    with pytest.raises(StudentError, match=message):
         student("return p", head)(POINTS)
 
 
@@ -219,9 +219,9 @@ def test_a_missing_function_and_a_missing_file_are_told(tmp_path):
     (tmp_path / "my.py").write_text("x = 1\n")
     with (
         pytest.raises(StudentError, match="defines no function centroid"),
-        SandboxedFunction(tmp_path / "my.py", "centroid") as one,
+        SandboxedFunction(tmp_path / "my.py", "centroid") as function,
     ):
-        one.start()
+        function.start()
     with pytest.raises(InputError, match="cannot be read"):
         SandboxedFunction(tmp_path / "other.py", "centroid")
 
@@ -258,8 +258,8 @@ def test_a_process_stays_in_a_folder_that_takes_no_files(tmp_path, monkeypatch, 
             stderr=subprocess.PIPE,
         )
     assert list(tmp_path.iterdir()) == []
-    said = process.communicate()[1]
-    assert b"FileNotFoundError" in said
+    stderr = process.communicate()[1]
+    assert b"FileNotFoundError" in stderr
 
 
 def test_a_run_that_goes_on_does_not_start_what_was_closed(student):
@@ -295,13 +295,13 @@ def test_a_cheat_earns_nothing(tmp_path, name):
 
 
 @pytest.mark.parametrize(
-    ("body", "kind", "said"),
+    ("body", "kind", "reason"),
     [
         ("while True: pass", "timeout", "took too long"),
         ("import os; os._exit(1)", "died", "ended its process"),
     ],
 )
-def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, *, said):
+def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, *, reason):
     given = written(tmp_path, body).submission
     with SandboxedFunction(given, "centroid", seconds=5.0, budget=CallBudget(5.0)) as student:
         began = time.monotonic()
@@ -311,7 +311,7 @@ def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, *, sa
                 student(POINTS)
             errors.append(caught.value)
     assert {error.kind for error in errors} == {kind}
-    assert [f"not called: 3 calls already {said}" in str(error) for error in errors] == [
+    assert [f"not called: 3 calls already {reason}" in str(error) for error in errors] == [
         False
     ] * 3 + [True] * 17
     assert (
@@ -352,14 +352,14 @@ for one in threads: one.join()
 print(time.process_time() - time.thread_time(), flush=True)
 time.sleep(60)
 """
-    with subprocess.Popen([sys.executable, "-c", busy], stdout=subprocess.PIPE) as one:
+    with subprocess.Popen([sys.executable, "-c", busy], stdout=subprocess.PIPE) as process:
         try:
-            assert one.stdout is not None
-            others = float(one.stdout.readline())
-            raw = int(Path(f"/proc/{one.pid}/schedstat").read_text().split()[1]) / 1e9
-            counted = waited(one.pid)
+            assert process.stdout is not None
+            others = float(process.stdout.readline())
+            raw = int(Path(f"/proc/{process.pid}/schedstat").read_text().split()[1]) / 1e9
+            counted = waited(process.pid)
         finally:
-            one.kill()
+            process.kill()
     assert min(raw, others) > 0.3
     assert counted <= raw - min(raw, others) + 0.1
 
@@ -405,15 +405,15 @@ def test_all_calls_together_have_a_bound():
 
 
 def test_waiting_for_a_processor_is_not_the_function_s_time():
-    now, lost = [0.0], [0.0]
+    clock, lost = [0.0], [0.0]
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("workbench.exercise.sandbox.pipe.time.monotonic", lambda: now[0])
+        patched.setattr("workbench.exercise.sandbox.pipe.time.monotonic", lambda: clock[0])
         deadline = _Deadline(5.0, lambda: lost[0])
-        now[0] = 6.0
+        clock[0] = 6.0
         assert deadline.left() == pytest.approx(-1)
         lost[0] = 4.0
         assert deadline.left() == pytest.approx(3)
-        now[0], lost[0] = 51.0, 50.0
+        clock[0], lost[0] = 51.0, 50.0
         assert deadline.left() == pytest.approx(-1)  # ten times as long at most
 
 
@@ -423,11 +423,11 @@ def test_a_process_that_shares_one_processor_has_waited_for_it():
     pair = [subprocess.Popen([sys.executable, "-c", busy]) for _ in range(2)]
     try:
         end = time.monotonic() + 60
-        while min(waited(one.pid) for one in pair) < 0.3 and time.monotonic() < end:
+        while min(waited(process.pid) for process in pair) < 0.3 and time.monotonic() < end:
             time.sleep(0.05)
-        assert min(waited(one.pid) for one in pair) >= 0.3
+        assert min(waited(process.pid) for process in pair) >= 0.3
         assert waited(1 << 30) == 0.0
     finally:
-        for one in pair:
-            one.kill()
-            one.wait()
+        for process in pair:
+            process.kill()
+            process.wait()

@@ -20,7 +20,7 @@ from workbench.exercise.sandbox import best
 from workbench.exercise.seeds import MOST, HiddenSeed, drawn_from
 
 SEED = 2
-EACH = pytest.mark.parametrize("exercise", exercises().values(), ids=lambda one: one.name)
+EACH = pytest.mark.parametrize("exercise", exercises().values(), ids=lambda exercise: exercise.name)
 
 
 def test_the_usual_seed_holds_where_no_teacher_says_another():
@@ -70,14 +70,16 @@ def test_a_table_of_answers_is_worth_little_from_another_seed(exercise):
     assert grade_function(learning, exercise).is_full
     assert grade_function(learnt, exercise).is_full
     hidden = [
-        one for one in grade_function(learnt, exercise, seed=SEED).outcomes if not one.check.public
+        outcome
+        for outcome in grade_function(learnt, exercise, seed=SEED).outcomes
+        if not outcome.check.public
     ]
-    asked = sum(one.check.points for one in hidden)
-    earned = sum(one.points for one in hidden)
+    asked = sum(outcome.check.points for outcome in hidden)
+    earned = sum(outcome.points for outcome in hidden)
     assert (
         earned <= 0.6 * asked
     )  # what is at the ends, such as no point at all, is the same for everybody
-    drawn = [one for one in hidden if one.verdict.share == 0]
+    drawn = [outcome for outcome in hidden if outcome.verdict.share == 0]
     assert drawn
 
 

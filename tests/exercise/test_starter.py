@@ -55,14 +55,14 @@ def test_what_a_function_may_use_is_said_in_full():
     strict = replace(
         EXERCISE, contract=replace(EXERCISE.contract, seconds=0.5, forbid=("a.b", "c"))
     )
-    said = allowed(strict, 1536)
+    text = allowed(strict, 1536)
     for part in (
         "Python's own library, numpy and scipy, and modules",
         " It may not use a.b or c, which solves the task: who does earns nothing. One call",
         "One call may take 0.5 s and 1536 MB, all calls together 10 s.",
         "the first 64 KB are kept",
     ):
-        assert part in said
+        assert part in text
     assert "may not use" not in allowed(EXERCISE)
     assert "1 s and 2 GB, all calls together 20 s" in allowed(EXERCISE)
 

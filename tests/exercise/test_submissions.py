@@ -40,10 +40,10 @@ def test_a_file_is_read_up_to_a_megabyte(tmp_path):
 def test_what_is_not_read_is_named_up_to_five(tmp_path):
     write(tmp_path / "in", *(f"photo{k}.png" for k in range(7)), "week/a.ipynb", ".hidden", "b.PY")
     write(tmp_path / "in", "__pycache__/c.py", ".git/d.py")
-    found = handed_by("ada", tmp_path / "in")
-    assert sorted(found.files) == ["b.PY", "week/a.ipynb"]
+    hand_in = handed_by("ada", tmp_path / "in")
+    assert sorted(hand_in.files) == ["b.PY", "week/a.ipynb"]
     named = ", ".join(f"photo{k}.png" for k in range(5))
-    assert found.note == f"not read, since neither .py nor .ipynb: {named} and 2 more"
+    assert hand_in.note == f"not read, since neither .py nor .ipynb: {named} and 2 more"
     for k in (5, 6):
         (tmp_path / "in" / f"photo{k}.png").unlink()
     assert handed_by("ada", tmp_path / "in").note.endswith("photo4.png")
@@ -53,25 +53,25 @@ def test_in_a_folder_of_a_class_each_name_is_a_student(tmp_path):
     write(tmp_path, "ada.py", "bob.ipynb", "kim/a.py", "notes.txt", "max.tar.gz", "sue.py.txt")
     write(tmp_path, "kim.zip", "ada.zip", "bob.rar", ".git/a.py", "__pycache__/b.py", "out/c.py")
     (tmp_path / "lea").mkdir()
-    found = handed_in(tmp_path, tmp_path / "out")
-    assert sorted(found) == ["ada", "bob", "kim", "lea", "max", "sue"]
-    assert {name: list(one.files) for name, one in found.items() if one.files} == {
+    hand_ins = handed_in(tmp_path, tmp_path / "out")
+    assert sorted(hand_ins) == ["ada", "bob", "kim", "lea", "max", "sue"]
+    assert {name: list(hand_in.files) for name, hand_in in hand_ins.items() if hand_in.files} == {
         "ada": ["ada.py"],
         "bob": ["bob.ipynb"],
         "kim": ["a.py"],
     }
     unread = "not read: unpack it, or save it as a .py file or a notebook"
-    assert found["max"].troubles == (("max.tar.gz", f"max.tar.gz: {unread}"),)
-    assert found["sue"].troubles == (("sue.py.txt", f"sue.py.txt: {unread}"),)
-    assert found["lea"].troubles == (("", "the folder holds no .py file and no notebook"),)
+    assert hand_ins["max"].troubles == (("max.tar.gz", f"max.tar.gz: {unread}"),)
+    assert hand_ins["sue"].troubles == (("sue.py.txt", f"sue.py.txt: {unread}"),)
+    assert hand_ins["lea"].troubles == (("", "the folder holds no .py file and no notebook"),)
     assert "out" in handed_in(tmp_path)
 
 
 def test_two_of_one_name_are_both_named(tmp_path):
-    found = handed_in(write(tmp_path, "ada.py", "ada.ipynb", "ada/my.py"))
+    hand_ins = handed_in(write(tmp_path, "ada.py", "ada.ipynb", "ada/my.py"))
     named = "ada.ipynb, my.py, ada.py"
-    said = f"two things here are named ada ({named}): leave one of them"
-    assert found == {"ada": HandIn("ada", {}, ((named, said),))}
+    message = f"two things here are named ada ({named}): leave one of them"
+    assert hand_ins == {"ada": HandIn("ada", {}, ((named, message),))}
 
 
 @pytest.mark.parametrize(
@@ -92,15 +92,15 @@ def test_a_roster_finds_its_students_whatever_their_capitals(tmp_path):
     (tmp_path / "roster.csv").write_text("Ada\nBob\n")
     ada = HandIn("ada", {"a.py": b""})
     eve = HandIn("eve", {"b.py": b""}, note="late")
-    found = with_roster({"eve": eve, "ada": ada}, tmp_path / "roster.csv")
-    assert [(one.student, one.note) for one in found.values()] == [
+    hand_ins = with_roster({"eve": eve, "ada": ada}, tmp_path / "roster.csv")
+    assert [(hand_in.student, hand_in.note) for hand_in in hand_ins.values()] == [
         ("ada", ""),
         ("Bob", ""),
         ("eve", "late; not in the roster"),
     ]
-    for text, said in ((b"", "names no student"), (b"\xff\xfe", "not UTF-8")):
+    for text, message in ((b"", "names no student"), (b"\xff\xfe", "not UTF-8")):
         (tmp_path / "roster.csv").write_bytes(text)
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             with_roster({}, tmp_path / "roster.csv")
 
 
@@ -119,18 +119,18 @@ class Reads:
 
 
 def test_modules_beside_a_file_are_read_with_it_up_to_twenty():
-    there = {"a.py": b"b a", "b.py": b"a c", **{f"m{k}.py": b"none" for k in range(30)}}
-    found = submission("my.py", b"numpy a", there.get, reader=Reads())
-    assert found.modules == {"a": "b a", "b": "a c"}
-    assert (found.file, found.source, found.said, found.defines) == (
+    files = {"a.py": b"b a", "b.py": b"a c", **{f"m{k}.py": b"none" for k in range(30)}}
+    given = submission("my.py", b"numpy a", files.get, reader=Reads())
+    assert given.modules == {"a": "b a", "b": "a c"}
+    assert (given.file, given.source, given.said, given.defines) == (
         "my.py",
         "numpy a",
         ("match",),
         frozenset("f"),
     )
-    assert found.parts == found.extra_files["a"]
-    assert found.parts[0].uses == (("numpy", 3),)
+    assert given.parts == given.extra_files["a"]
+    assert given.parts[0].uses == (("numpy", 3),)
     many = " ".join(f"m{k}" for k in range(30)).encode()
-    assert list(submission("my.py", many, there.get, reader=Reads()).modules) == [
+    assert list(submission("my.py", many, files.get, reader=Reads()).modules) == [
         f"m{k}" for k in range(20)
     ]

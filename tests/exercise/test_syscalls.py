@@ -34,16 +34,16 @@ def answered(program: bytes, architecture: int, number: int, *, words: tuple[int
     lines = list(struct.iter_unpack("=HBBI", program))
     at = held = 0
     while True:
-        what, yes, no, k = lines[at]
+        opcode, yes, no, k = lines[at]
         at += 1
-        if what == 0x06:
+        if opcode == 0x06:
             return k
-        if what == 0x20:
+        if opcode == 0x20:
             (held,) = struct.unpack_from("<I", asked, k)
-        elif what == 0x54:
+        elif opcode == 0x54:
             held &= k
         else:
-            at += yes if {0x15: held == k, 0x35: held >= k}[what] else no
+            at += yes if {0x15: held == k, 0x35: held >= k}[opcode] else no
 
 
 ALLOWED = 0x7FFF0000
@@ -165,5 +165,5 @@ def test_the_numbers_are_the_kernel_s(syscalls, machine):
 def test_a_machine_is_the_one_that_the_kernel_names(syscalls):
     """Source: Linux, include/uapi/linux/audit.h, elf-em.h: 64 bits, little end first, and EM_."""
     known = {"x86_64": 62, "aarch64": 183}
-    found = {machine: number for machine, (_, number) in syscalls.MACHINES.items()}
-    assert found == {machine: 0xC0000000 | number for machine, number in known.items()}
+    numbers = {machine: number for machine, (_, number) in syscalls.MACHINES.items()}
+    assert numbers == {machine: 0xC0000000 | number for machine, number in known.items()}

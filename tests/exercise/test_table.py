@@ -22,18 +22,20 @@ def every() -> dict[str, list[Graded]]:
 
 @pytest.mark.parametrize("exercise", EXERCISES, ids=lambda exercise: exercise.name)
 def test_what_students_hand_in_gets_what_it_deserves(exercise, every):
-    found = every.setdefault(exercise.name, list(graded(exercise)))
-    assert sum(one.is_right for one in found) >= LEAST_RIGHT
-    assert sum(not one.is_right for one in found) >= LEAST_WRONG
-    assert not complaints(found), "\n\n".join(complaints(found))
-    assert {one.name for one in found if one.fate == "vague"} <= TOLD_VAGUELY
+    solutions = every.setdefault(exercise.name, list(graded(exercise)))
+    assert sum(solution.is_right for solution in solutions) >= LEAST_RIGHT
+    assert sum(not solution.is_right for solution in solutions) >= LEAST_WRONG
+    assert not complaints(solutions), "\n\n".join(complaints(solutions))
+    assert {solution.name for solution in solutions if solution.fate == "vague"} <= TOLD_VAGUELY
 
 
 def test_right_answers_of_people_who_saw_no_checks_have_full_marks():
-    found = list(graded_strangers())
-    assert {one.report.exercise.name for one in found} == {exercise.name for exercise in EXERCISES}
-    assert len(found) >= 60
-    assert not complaints(found), "\n\n".join(complaints(found))
+    solutions = list(graded_strangers())
+    assert {solution.report.exercise.name for solution in solutions} == {
+        exercise.name for exercise in EXERCISES
+    }
+    assert len(solutions) >= 60
+    assert not complaints(solutions), "\n\n".join(complaints(solutions))
 
 
 def test_every_exercise_has_its_file():

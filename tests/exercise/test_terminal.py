@@ -37,7 +37,7 @@ pytestmark = pytest.mark.skipif(
 
 
 @pytest.fixture
-def said(monkeypatch, capfd):
+def told_by(monkeypatch, capfd):
     """Carries out a command, and returns all that the terminal was sent: lines of signs that can be
     seen.
     """
@@ -60,25 +60,25 @@ def write(folder: Path, kind: str, name: str) -> Path:
 
 
 @pytest.mark.parametrize("kind", FILES)
-def test_a_check_sends_nothing_that_a_terminal_obeys(tmp_path, said, kind):
-    text = said("check", write(tmp_path, kind, "my_centroid.py"))
+def test_a_check_sends_nothing_that_a_terminal_obeys(tmp_path, told_by, kind):
+    text = told_by("check", write(tmp_path, kind, "my_centroid.py"))
     assert "centroid" in text
     assert ("\\x1b[2J" in text) == (kind in QUOTED)
 
 
-def test_names_of_files_and_folders_are_written_out_too(tmp_path, said):
+def test_names_of_files_and_folders_are_written_out_too(tmp_path, told_by):
     odd = SIGNS.replace("\x00", "'\\")
-    text = said("check", write(tmp_path / odd, "returns", f"{odd}.py"))
+    text = told_by("check", write(tmp_path / odd, "returns", f"{odd}.py"))
     command = text.partition("goes wrong: ")[2].splitlines()[0]
-    there = subprocess.run(
+    printed = subprocess.run(
         ["bash", "-c", f"printf %s {command.removeprefix('workbench replay ')}"],
         stdout=subprocess.PIPE,
         check=True,
     ).stdout
-    assert there.decode() == str(tmp_path / odd / f"{odd}.rrd"), (
+    assert printed.decode() == str(tmp_path / odd / f"{odd}.rrd"), (
         "and a shell reads the name that it was"
     )
-    assert "\\x1b[2J" in said("check", tmp_path / f"{odd}.py")
+    assert "\\x1b[2J" in told_by("check", tmp_path / f"{odd}.py")
 
 
 def test_what_a_server_tells_whoever_started_it_is_written_out_too(capsys):
@@ -86,15 +86,15 @@ def test_what_a_server_tells_whoever_started_it_is_written_out_too(capsys):
         raise ValueError(f"{SIGNS}seen")
     except ValueError as error:
         tell_terminal(error)
-    said = capsys.readouterr().err
-    assert "\n  File " in said
-    assert "\\x1b[2J" in said
-    assert [sign for sign in said if not sign.isprintable() and sign != "\n"] == []
+    printed = capsys.readouterr().err
+    assert "\n  File " in printed
+    assert "\\x1b[2J" in printed
+    assert [sign for sign in printed if not sign.isprintable() and sign != "\n"] == []
 
 
-def test_grading_a_class_sends_nothing_that_a_terminal_obeys(tmp_path, said):
+def test_grading_a_class_sends_nothing_that_a_terminal_obeys(tmp_path, told_by):
     for kind in FILES:
         write(tmp_path / "in", kind, f"{SIGNS[:4]}{kind}.py")
-    text = said("grade", tmp_path / "in")
+    text = told_by("grade", tmp_path / "in")
     assert "seen" in (tmp_path / "in" / "graded" / "summary.md").read_text(encoding="utf-8")
     assert text

@@ -30,8 +30,8 @@ def test_what_a_process_and_those_it_started_waited_for_a_processor(tmp_path, mo
     process(proc, 5, ran=1.0, lost=0.0, all_ran=1.0, children="6 6 6 6 4")
     process(proc, 6, ran=1.0, lost=1.5, all_ran=1.0)
     monkeypatch.setattr(waiting, "Path", lambda name: tmp_path / name.lstrip("/"))
-    said = {pid: waiting.waited(pid) for pid in (1, 2, 3, 4, 5, 99)}
-    assert said == {1: 3.0, 2: 3.0, 3: 0.0, 4: 7.0, 5: 1.5, 99: 0.0}
+    seconds = {pid: waiting.waited(pid) for pid in (1, 2, 3, 4, 5, 99)}
+    assert seconds == {1: 3.0, 2: 3.0, 3: 0.0, 4: 7.0, 5: 1.5, 99: 0.0}
     (proc / "2" / "schedstat").write_text("what")
     assert waiting.waited(2) == 0.0
 
@@ -106,7 +106,7 @@ def test_of_a_tree_all_is_listed_but_what_is_masked_and_links(tmp_path):
     (tmp_path / "link").symlink_to("masked")
     (tmp_path / "link.py").symlink_to("masked/e.py")
     masked = (str(tmp_path / "masked"), str(tmp_path / "f" / "masked"))
-    found = sorted(os.path.relpath(path, tmp_path) for path in _without(str(tmp_path), masked))
-    assert found == ["a", "f/g.py"]
+    paths = sorted(os.path.relpath(path, tmp_path) for path in _without(str(tmp_path), masked))
+    assert paths == ["a", "f/g.py"]
     assert list(_without(str(tmp_path / "a"), masked)) == [str(tmp_path / "a")]
     assert list(_without(masked[0], masked)) == []

@@ -79,11 +79,11 @@ def test_what_it_prints_in_the_run_is_kept_apart_for_each_save(watched):
 
 def test_a_file_that_is_gone_is_said_and_what_ran_stays(watched):
     watched.check()
-    found, lesson = watched.said, watched.lesson
+    report, lesson = watched.said, watched.lesson
     text = watched.path.read_text()
     watched.path.unlink()
     assert not watched.changed()
-    assert watched.said is found  # an editor may be replacing it
+    assert watched.said is report  # an editor may be replacing it
     for _ in range(GONE_AFTER):
         assert not watched.changed()
     assert str(watched.said).startswith("my_align_rigid.py is gone")
@@ -91,7 +91,7 @@ def test_a_file_that_is_gone_is_said_and_what_ran_stays(watched):
     watched.path.write_text(text)
     assert watched.changed()
     watched.check()
-    assert watched.said == found
+    assert watched.said == report
 
 
 def test_a_file_is_gone_after_four_looks_and_not_before(tmp_path, watched):
@@ -131,7 +131,9 @@ def test_after_an_error_is_mended_the_step_is_kept(watched):
 
 
 @pytest.mark.parametrize(
-    "function", [*SUMS.alternatives, SUMS.mistakes[0].function], ids=lambda one: one.__name__
+    "function",
+    [*SUMS.alternatives, SUMS.mistakes[0].function],
+    ids=lambda function: function.__name__,
 )
 def test_rounding_that_decides_between_equal_costs_is_no_first_difference(function):
     lesson = catalog()[SUMS.lesson]
@@ -164,7 +166,7 @@ def opened(monkeypatch):
     return carry_out
 
 
-@pytest.mark.parametrize("exercise", exercises().values(), ids=lambda one: one.name)
+@pytest.mark.parametrize("exercise", exercises().values(), ids=lambda exercise: exercise.name)
 def test_the_run_that_is_opened_calls_the_function(exercise, opened, tmp_path):
     _, params, step = opened(exercise.lesson, "--with", write_starter(exercise, tmp_path))
     lesson = catalog()[exercise.lesson]

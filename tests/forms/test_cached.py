@@ -181,19 +181,19 @@ def test_none_is_a_value(calls):
 
 
 def test_threads_may_ask_at_once(chosen):
-    found: list[np.ndarray] = []
+    differences: list[np.ndarray] = []
 
     def ask(k: int) -> None:
         for near in range(40):
-            found.append(chosen(Input(near=near, far=k)) - near)
+            differences.append(chosen(Input(near=near, far=k)) - near)
 
     threads = [threading.Thread(target=ask, args=(k,)) for k in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(found) == 160
-    assert not np.any(found)
+    assert len(differences) == 160
+    assert not np.any(differences)
 
 
 class Filed(Params):

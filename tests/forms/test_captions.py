@@ -65,7 +65,7 @@ def test_the_step_has_a_name():
 
 
 @pytest.mark.parametrize(
-    ("sentence", "values", "said"),
+    ("sentence", "values", "message"),
     [
         ("It is {a}.", {}, "differ in: a"),
         ("It is.", {"a": 2}, "differ in: a"),
@@ -79,6 +79,6 @@ def test_the_step_has_a_name():
         ("It is {}.", {}, "differ in"),
     ],
 )
-def test_what_does_not_fit_is_refused(sentence, values, said):
-    with pytest.raises(ValueError, match=said):
+def test_what_does_not_fit_is_refused(sentence, values, message):
+    with pytest.raises(ValueError, match=message):
         say(sentence, **values)

@@ -37,7 +37,9 @@ def test_its_questions_are_answered(lesson):
 def test_its_exercise_is_graded(lesson):
     (exercise,) = exercises_of(lesson)
     assert grade_function(exercise.reference, exercise).is_full
-    assert not any(grade_function(one.function, exercise).is_full for one in exercise.mistakes)
+    assert not any(
+        grade_function(mistake.function, exercise).is_full for mistake in exercise.mistakes
+    )
 
 
 def test_it_is_recorded_and_read_again(lesson, tmp_path):

@@ -106,7 +106,7 @@ def test_a_student_s_function_drives_it():
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"setup": lambda: 1}, r"setup\(\) takes the params"),
         ({"run": lambda params: iter(())}, r"run\(params\) takes the params, the subject and, by"),
@@ -114,8 +114,8 @@ def test_a_student_s_function_drives_it():
         ({"run": 3}, "run is a function, not 3"),
     ],
 )
-def test_functions_that_do_not_fit_are_told_when_the_lesson_is_made(changes, said):
-    with pytest.raises(ValueError, match=said):
+def test_functions_that_do_not_fit_are_told_when_the_lesson_is_made(changes, message):
+    with pytest.raises(ValueError, match=message):
         replace(lesson, **changes)
 
 
@@ -163,13 +163,13 @@ class TestInputs:
 
 class TestFirstForm:
     def test_every_lesson_has_the_second_form(self):
-        for one in [*catalog().values(), fake.lesson]:
-            params = one.params()
-            form = one.form
+        for entry in [*catalog().values(), fake.lesson]:
+            params = entry.params()
+            form = entry.form
             subject = form.setup(params)
             state = next(form.run(params, subject))
             look = Look(params=params, subject=subject, now=state)
-            assert isinstance(caption_of(form.draw(look)), Caption), one.name
+            assert isinstance(caption_of(form.draw(look)), Caption), entry.name
 
     def test_its_slots_are_the_keywords_of_run(self):
         assert fake.lesson.form.slots == ("turn",)
@@ -196,14 +196,17 @@ class TestFirstForm:
             yield params.way
 
         shown = {"caption": Caption("A step of it.")}
-        one = Lesson(
+        first_form = Lesson(
             name="a", title="A", summary="A", params=First, run=run, draw=lambda s: shown, order=1
         )
-        assert whole(one).idle() == ("far",)
-        assert whole(one, First(way=True)).idle() == ()
+        assert whole(first_form).idle() == ("far",)
+        assert whole(first_form, First(way=True)).idle() == ()
         assert whole(
             replace(
-                one, setup=lambda params: None, run=lambda p, s: run(p), draw=lambda look: shown
+                first_form,
+                setup=lambda params: None,
+                run=lambda p, s: run(p),
+                draw=lambda look: shown,
             )
         ).idle() == ("far",)
 

@@ -100,5 +100,5 @@ def test_a_run_longer_than_what_is_compared_is_told_nothing():
     def run(params: Input, bucket: Bucket) -> Any:
         yield from range(10 * params.some, -30, -1)
 
-    found = told(unread, replace(lesson, run=run, presets=()))
-    assert not [line for line in found if "how the run ends" in line]
+    lines = told(unread, replace(lesson, run=run, presets=()))
+    assert not [line for line in lines if "how the run ends" in line]

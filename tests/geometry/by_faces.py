@@ -20,17 +20,17 @@ def measured_face_by_face(
     a, b, c = p[faces].swapaxes(0, 1)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
     corner = []
-    for here, one, two in ((a, b, c), (b, c, a), (c, a, b)):
-        u, v = one - here, two - here
+    for here, first, second in ((a, b, c), (b, c, a), (c, a, b)):
+        u, v = first - here, second - here
         cosine = np.einsum("fx,fx->f", u, v) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)
         corner.append(np.arccos(np.clip(cosine, -1, 1)))
     obtuse = np.max(corner, axis=0) > np.pi / 2
-    for k, (here, one, two) in enumerate(((a, b, c), (b, c, a), (c, a, b))):
+    for k, (here, first, second) in enumerate(((a, b, c), (b, c, a), (c, a, b))):
         # The cell ends at the bisectors of the two edges: their halves, times the cotangent of the
         # angle across.
         across = [
-            np.sum((one - here) ** 2, axis=1) / np.tan(corner[(k + 2) % 3]),
-            np.sum((two - here) ** 2, axis=1) / np.tan(corner[(k + 1) % 3]),
+            np.sum((first - here) ** 2, axis=1) / np.tan(corner[(k + 2) % 3]),
+            np.sum((second - here) ** 2, axis=1) / np.tan(corner[(k + 1) % 3]),
         ]
         share = np.where(
             obtuse, np.where(corner[k] > np.pi / 2, area / 2, area / 4), (across[0] + across[1]) / 8

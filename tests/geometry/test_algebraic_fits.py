@@ -81,8 +81,8 @@ def test_scikit_images_circle_is_kasas():
     if model is None:
         model = measure.CircleModel()
         model.estimate(p)
-    found = model.params if not hasattr(model, "center") else (*model.center, model.radius)
-    np.testing.assert_allclose(fit_algebraic(p, "Kåsa"), found, rtol=1e-6)
+    theirs = model.params if not hasattr(model, "center") else (*model.center, model.radius)
+    np.testing.assert_allclose(fit_algebraic(p, "Kåsa"), theirs, rtol=1e-6)
 
 
 def test_a_sphere_has_no_hyper_and_two_points_no_circle():

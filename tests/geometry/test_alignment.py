@@ -120,9 +120,9 @@ def test_flat_noisy_pairs_never_mirror(seed):
     rng = np.random.default_rng(seed)
     p = rng.standard_normal((40, 3)) * [1, 1, 0]
     R = exp_so3(rng.standard_normal(3))
-    found = align_rigid(p @ R.T + 0.05 * rng.standard_normal((40, 3)), p)
-    assert is_rotation(found[:3, :3])
-    assert np.degrees(rotation_angle(found[:3, :3] @ R.T)) < 3.0
+    estimate = align_rigid(p @ R.T + 0.05 * rng.standard_normal((40, 3)), p)
+    assert is_rotation(estimate[:3, :3])
+    assert np.degrees(rotation_angle(estimate[:3, :3] @ R.T)) < 3.0
 
 
 @pytest.mark.parametrize("offset", [1e6, -1e6])
@@ -173,10 +173,10 @@ class TestDegenerate:
     def test_coplanar_points_are_brought_together(self, align):
         p = cloud(1) * [1.0, 1.0, 0.0]
         T = motion(exp_so3(np.array([0.5, 1.0, -2.0])), np.array([1.0, 0.0, 2.0]))
-        found = align(apply(T, p), p)
-        np.testing.assert_allclose(apply(found, p), apply(T, p), atol=1e-9)
+        estimate = align(apply(T, p), p)
+        np.testing.assert_allclose(apply(estimate, p), apply(T, p), atol=1e-9)
         if align is not align_affine:
-            np.testing.assert_allclose(found, T, atol=1e-9)
+            np.testing.assert_allclose(estimate, T, atol=1e-9)
 
     def test_misuse_is_refused(self, align):
         p = cloud(2)
@@ -225,13 +225,13 @@ def test_plane_steps_converge_to_the_motion_quadratically():
     T = exp_se3(np.array([0.1, -0.2, 0.05, 0.2, -0.1, 0.3]))
     p_target = apply(T, p)
     n_target = n @ T[:3, :3].T
-    found = np.eye(4)
+    estimate = np.eye(4)
     errors = []
     for _ in range(5):
-        found = point_to_plane_step(p_target, apply(found, p), n_target) @ found
-        errors.append(rotation_angle(found[:3, :3] @ T[:3, :3].T))
+        estimate = point_to_plane_step(p_target, apply(estimate, p), n_target) @ estimate
+        errors.append(rotation_angle(estimate[:3, :3] @ T[:3, :3].T))
     assert errors[1] < errors[0] ** 2 * 10
-    np.testing.assert_allclose(found, T, atol=1e-12)
+    np.testing.assert_allclose(estimate, T, atol=1e-12)
 
 
 def test_the_plane_step_is_equivariant_and_right_far_away():

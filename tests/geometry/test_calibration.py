@@ -65,9 +65,9 @@ def test_exact_views_give_the_camera_and_the_poses(seed):
     N = np.diag([1 / 640, 1 / 640, 1.0])
     Hs = [homography(K, T, rng.uniform(0.1, 9) * rng.choice([-1, 1])) for T in Ts]
     rows = np.concatenate([constraint_rows(N @ H / np.linalg.norm(H)) for H in Hs])
-    found = intrinsics_from_constraints(rows)
-    assert found is not None
-    np.testing.assert_allclose(np.linalg.inv(N) @ found, K, rtol=1e-6, atol=1e-4)
+    estimate = intrinsics_from_constraints(rows)
+    assert estimate is not None
+    np.testing.assert_allclose(np.linalg.inv(N) @ estimate, K, rtol=1e-6, atol=1e-4)
     for T, H in zip(Ts, Hs, strict=True):
         np.testing.assert_allclose(pose_from_homography(K, H), T, atol=1e-9)
 
@@ -77,7 +77,7 @@ def test_parallel_boards_are_one_view():
     K, T = camera(rng), pose(rng)
     others = [motion(T[:3, :3], T[:3, 3] + shift) for shift in rng.uniform(-0.1, 0.1, (4, 3))]
     N = np.diag([1 / 640, 1 / 640, 1.0])
-    rows = np.concatenate([constraint_rows(N @ homography(K, one)) for one in others])
+    rows = np.concatenate([constraint_rows(N @ homography(K, other)) for other in others])
     assert np.linalg.matrix_rank(rows, 1e-9 * np.abs(rows).max()) == 2
 
 
@@ -97,10 +97,10 @@ def test_a_noisy_homography_gives_a_rotation_before_the_camera():
     K, T = camera(rng), pose(rng)
     H = homography(K, T) * (1 + 0.01 * rng.normal(size=(3, 3)))
     for sign in (1, -1):
-        found = pose_from_homography(K, sign * H)
-        np.testing.assert_allclose(found[:3, :3] @ found[:3, :3].T, np.eye(3), atol=1e-12)
-        assert np.linalg.det(found[:3, :3]) > 0
-        assert found[2, 3] > 0
+        estimate = pose_from_homography(K, sign * H)
+        np.testing.assert_allclose(estimate[:3, :3] @ estimate[:3, :3].T, np.eye(3), atol=1e-12)
+        assert np.linalg.det(estimate[:3, :3]) > 0
+        assert estimate[2, 3] > 0
     with pytest.raises(ValueError, match="no inverse"):
         pose_from_homography(np.zeros((3, 3)), H)
     with pytest.raises(ValueError, match="zero"):

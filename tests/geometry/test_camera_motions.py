@@ -58,12 +58,12 @@ def test_refined_is_where_scipys_least_squares_ends(weighted):
     T, p_world, xy = view(2, 12, sigma=3 * PIXEL)
     weights = np.linspace(0.2, 2.0, 12) if weighted else None
     root = np.repeat(np.sqrt(np.ones(12) if weights is None else weights), 2)
-    found = scipy.optimize.least_squares(
+    oracle = scipy.optimize.least_squares(
         lambda x: root * linearised(exp_se3(x) @ T, p_world, xy)[0], np.zeros(6), xtol=1e-14
     )
     start = exp_se3(np.array([0.3, -0.2, 0.4, 0.1, -0.2, 0.15])) @ T
     ours = refined(start[None], p_world, xy, weights=weights)[0]
-    assert np.abs(log_se3(ours @ inverse(exp_se3(found.x) @ T))).max() < 1e-5
+    assert np.abs(log_se3(ours @ inverse(exp_se3(oracle.x) @ T))).max() < 1e-5
 
 
 def test_refined_never_raises_the_cost_and_keeps_points_in_front():

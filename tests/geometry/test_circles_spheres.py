@@ -28,10 +28,10 @@ def test_the_minimal_fit_recovers_the_sphere(d, seed):
     rng = np.random.default_rng(seed)
     sphere = np.append(rng.normal(size=d), rng.uniform(0.1, 3.0))
     p = on_sphere(rng, d + 1, sphere)
-    found = MINIMAL[d](p)
-    if np.isnan(found).any():  # four points of a sphere can happen to lie nearly in one plane
+    fitted = MINIMAL[d](p)
+    if np.isnan(fitted).any():  # four points of a sphere can happen to lie nearly in one plane
         return
-    np.testing.assert_allclose(sphere_distances(found, p), 0.0, atol=1e-6 * max(1.0, found[-1]))
+    np.testing.assert_allclose(sphere_distances(fitted, p), 0.0, atol=1e-6 * max(1.0, fitted[-1]))
 
 
 def test_a_known_circle_and_sphere():
@@ -77,11 +77,11 @@ def test_the_fit_is_the_geometric_optimum(seed, d):
     rng = np.random.default_rng(seed)
     p = on_sphere(rng, 40, np.append(rng.normal(size=d), 1.0)) + 0.05 * rng.normal(size=(40, d))
     weights = rng.random(40) + 0.1
-    found = fit_sphere(p, weights)
+    fitted = fit_sphere(p, weights)
     oracle = scipy.optimize.least_squares(
-        lambda s: np.sqrt(weights) * sphere_distances(s, p), found + 0.01
+        lambda s: np.sqrt(weights) * sphere_distances(s, p), fitted + 0.01
     )
-    np.testing.assert_allclose(found, oracle.x, atol=1e-4)
+    np.testing.assert_allclose(fitted, oracle.x, atol=1e-4)
 
 
 def test_the_geometric_fit_beats_the_algebraic_one_on_a_noisy_arc():

@@ -45,11 +45,11 @@ def test_turned_inside_out_the_winding_is_negative_and_inside_stays():
 def test_overlapping_spheres_wind_twice_and_are_one_solid():
     two = two_spheres(3)
     q = around(two_spheres(3).p, 4000, 2)
-    found = windings(columns(two.p, two.faces), q)
-    assert set(found.tolist()) == {0, 1, 2}
+    numbers = windings(columns(two.p, two.faces), q)
+    assert set(numbers.tolist()) == {0, 1, 2}
     far = np.abs(np.linalg.norm(np.abs(q) * [1, 1, 1] - [0.5, 0, 0], axis=1) - 1) > 0.02
     assert two.inside is not None
-    np.testing.assert_array_equal((found != 0)[far], two.inside(q)[far])
+    np.testing.assert_array_equal((numbers != 0)[far], two.inside(q)[far])
 
 
 def test_rays_through_corners_edges_and_upright_faces_are_counted_once():
@@ -58,12 +58,12 @@ def test_rays_through_corners_edges_and_upright_faces_are_counted_once():
     q = np.stack(np.meshgrid(ticks, ticks, [-0.5, 0.5, 1.5, 2.5], indexing="ij"), axis=-1).reshape(
         -1, 3
     )
-    found = windings(columns(cube.p, cube.faces), q)
-    assert set(found.tolist()) == {0, 1}
+    numbers = windings(columns(cube.p, cube.faces), q)
+    assert set(numbers.tolist()) == {0, 1}
     strictly = (np.abs(q[:, :2]) < 1).all(axis=1) & (q[:, 2] > 0) & (q[:, 2] < 2)
     outside = (np.abs(q[:, :2]) > 1).any(axis=1) | (q[:, 2] < 0) | (q[:, 2] > 2)
-    assert (found[strictly] == 1).all()
-    assert (found[outside] == 0).all()
+    assert (numbers[strictly] == 1).all()
+    assert (numbers[outside] == 0).all()
 
 
 def test_every_vertical_line_through_vertices_leaves_as_often_as_it_enters():

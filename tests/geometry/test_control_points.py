@@ -13,8 +13,8 @@ PIXEL = 1 / 800
 
 
 def views(n: int, count: int, *, sigma: float = PIXEL, flat: bool = False):
-    found = [view(seed, n, sigma=sigma, flat=flat) for seed in range(count)]
-    return tuple(np.stack([one[k] for one in found]) for k in range(3))
+    samples = [view(seed, n, sigma=sigma, flat=flat) for seed in range(count)]
+    return tuple(np.stack([sample[k] for sample in samples]) for k in range(3))
 
 
 def far(Ts: np.ndarray, Ts_true: np.ndarray) -> float:

@@ -44,11 +44,11 @@ def test_inscribed_spheres_have_exactly_their_mean_curvature():
 @pytest.mark.parametrize(("K", "H"), [(0.0005, 0.0003)])
 def test_regular_torus_at_20k(K, H):
     ring = torus(20_000)
-    found = curvature.curvatures(ring.p, ring.faces)
-    assert relative(found.gaussian, ring.gaussian) < K
-    assert relative(found.mean, ring.mean) < H
-    assert relative(found.k1, ring.k1) < 0.001
-    assert relative(found.k2, ring.k2) < 0.001
+    curvatures = curvature.curvatures(ring.p, ring.faces)
+    assert relative(curvatures.gaussian, ring.gaussian) < K
+    assert relative(curvatures.mean, ring.mean) < H
+    assert relative(curvatures.k1, ring.k1) < 0.001
+    assert relative(curvatures.k2, ring.k2) < 0.001
 
 
 def test_errors_of_a_regular_mesh_fall_with_the_square_of_its_edges():
@@ -61,8 +61,8 @@ def test_errors_of_a_regular_mesh_fall_with_the_square_of_its_edges():
 
 def test_errors_of_an_irregular_mesh_stay():
     rings = [torus(count, jitter=0.2, rng=np.random.default_rng(0)) for count in (2000, 20_000)]
-    found = [curvature.curvatures(ring.p, ring.faces) for ring in rings]
-    for ring, c in zip(rings, found, strict=True):
+    curvatures = [curvature.curvatures(ring.p, ring.faces) for ring in rings]
+    for ring, c in zip(rings, curvatures, strict=True):
         assert 0.08 < relative(c.gaussian, ring.gaussian) < 0.16
         assert 0.07 < relative(c.mean, ring.mean) < 0.16
 
@@ -70,19 +70,22 @@ def test_errors_of_an_irregular_mesh_stay():
 @pytest.mark.parametrize("name", ["sphere", "cylinder", "saddle", "catenoid", "plane"])
 def test_regular_meshes_of_known_surfaces(name):
     surface = SURFACES[name](5000)
-    found = curvature.curvatures(surface.p, surface.faces)
-    inside = ~found.border
-    for estimate, true in ((found.gaussian, surface.gaussian), (found.mean, surface.mean)):
-        assert np.isnan(estimate[found.border]).all()
+    curvatures = curvature.curvatures(surface.p, surface.faces)
+    inside = ~curvatures.border
+    for estimate, true in (
+        (curvatures.gaussian, surface.gaussian),
+        (curvatures.mean, surface.mean),
+    ):
+        assert np.isnan(estimate[curvatures.border]).all()
         scale = max(1.0, np.abs(true).max())
         assert np.sqrt(np.mean((estimate - true)[inside] ** 2)) < 0.002 * scale
 
 
 def test_cylinder_is_flat_to_gauss_and_bent_to_the_mean():
     tube = cylinder(2000, radius=0.25)
-    found = curvature.curvatures(tube.p, tube.faces)
-    np.testing.assert_allclose(found.gaussian[~found.border], 0, atol=1e-9)
-    np.testing.assert_allclose(found.mean[~found.border], 1 / (2 * 0.25), rtol=2e-3)
+    curvatures = curvature.curvatures(tube.p, tube.faces)
+    np.testing.assert_allclose(curvatures.gaussian[~curvatures.border], 0, atol=1e-9)
+    np.testing.assert_allclose(curvatures.mean[~curvatures.border], 1 / (2 * 0.25), rtol=2e-3)
 
 
 @settings(max_examples=20, deadline=None)
@@ -92,9 +95,9 @@ def test_motion_scale_and_orientation(seed, scale):
     p, faces = random_closed(rng, 40, spread=0.3)
     R = exp_so3(rng.uniform(-3, 3, 3))
     here = curvature.curvatures(p, faces)
-    there = curvature.curvatures(scale * p @ R.T + [3, 2, 1], faces)
-    np.testing.assert_allclose(there.gaussian * scale**2, here.gaussian, rtol=1e-7, atol=1e-7)
-    np.testing.assert_allclose(there.mean * scale, here.mean, rtol=1e-7, atol=1e-7)
+    moved = curvature.curvatures(scale * p @ R.T + [3, 2, 1], faces)
+    np.testing.assert_allclose(moved.gaussian * scale**2, here.gaussian, rtol=1e-7, atol=1e-7)
+    np.testing.assert_allclose(moved.mean * scale, here.mean, rtol=1e-7, atol=1e-7)
     turned = curvature.curvatures(p, faces[:, ::-1])
     np.testing.assert_allclose(turned.gaussian, here.gaussian, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(turned.mean, -here.mean, rtol=1e-9, atol=1e-9)
@@ -202,15 +205,15 @@ def test_tangents_make_a_right_handed_frame(seed):
 
 def test_doubling_the_size():
     ring = torus(2000)
-    one, two = (curvature.curvatures(s.p, s.faces) for s in (ring, scaled(ring, 2.0)))
-    np.testing.assert_allclose(two.gaussian, one.gaussian / 4, rtol=1e-9, atol=1e-9)
-    np.testing.assert_allclose(two.mean, one.mean / 2, rtol=1e-9, atol=1e-9)
-    np.testing.assert_allclose(two.defects, one.defects, atol=1e-12)
+    original, two = (curvature.curvatures(s.p, s.faces) for s in (ring, scaled(ring, 2.0)))
+    np.testing.assert_allclose(two.gaussian, original.gaussian / 4, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(two.mean, original.mean / 2, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(two.defects, original.defects, atol=1e-12)
 
 
 def test_unused_vertices_get_nan_and_disturb_nobody():
     p, faces = TETRAHEDRON
-    found = curvature.curvatures(np.vstack([p, [9, 9, 9]]), faces)
-    np.testing.assert_allclose(found.gaussian[:4], curvature.gaussian_curvature(p, faces))
-    assert np.isnan(found.gaussian[4])
-    assert np.isnan(found.mean[4])
+    curvatures = curvature.curvatures(np.vstack([p, [9, 9, 9]]), faces)
+    np.testing.assert_allclose(curvatures.gaussian[:4], curvature.gaussian_curvature(p, faces))
+    assert np.isnan(curvatures.gaussian[4])
+    assert np.isnan(curvatures.mean[4])

@@ -81,14 +81,14 @@ def test_several_matrices_and_single_precision():
 @given(seed=seeds)
 def test_seven_matches_without_noise_give_the_matrix_among_few(seed):
     F, uv_first, uv_second = views(seed, 40)
-    found = fundamentals_from_seven(uv_first[:7], uv_second[:7])
-    found = found[np.isfinite(found).all((1, 2))]
-    assert len(found) in (1, 3)
-    np.testing.assert_allclose(np.linalg.det(found), 0.0, atol=1e-9)
+    matrices = fundamentals_from_seven(uv_first[:7], uv_second[:7])
+    matrices = matrices[np.isfinite(matrices).all((1, 2))]
+    assert len(matrices) in (1, 3)
+    np.testing.assert_allclose(np.linalg.det(matrices), 0.0, atol=1e-9)
     np.testing.assert_allclose(
-        sampson_distances(found, uv_first[:7], uv_second[:7]), 0.0, atol=1e-4
+        sampson_distances(matrices, uv_first[:7], uv_second[:7]), 0.0, atol=1e-4
     )
-    assert np.abs(sampson_distances(found, uv_first, uv_second)).max(axis=1).min() < 0.05
+    assert np.abs(sampson_distances(matrices, uv_first, uv_second)).max(axis=1).min() < 0.05
     assert orientation_agrees(F[None], uv_first, uv_second)[0]
 
 
@@ -132,11 +132,11 @@ def test_a_match_of_weight_zero_does_not_count():
     F, uv_first, uv_second = views(6, 40)
     uv_second[:3] += 50.0
     weights = np.r_[np.zeros(3), np.ones(37)]
-    for found in (
+    for fitted in (
         fit_fundamental(uv_first, uv_second, weights),
         refine_fundamental(F, uv_first, uv_second, weights=weights),
     ):
-        same_up_to_sign(found, F, 1e-6)
+        same_up_to_sign(fitted, F, 1e-6)
 
 
 def test_eight_points_agree_with_skimage():
@@ -160,21 +160,21 @@ def test_refinement_lowers_the_distances_and_stays_singular(seed):
     _, uv_first, uv_second = views(seed, 60, sigma=1.0)
     weights = np.random.default_rng(seed).random(60) + 0.1
     start = fit_fundamental(uv_first, uv_second, weights)
-    found = refine_fundamental(start, uv_first, uv_second, weights=weights, steps=50)
+    refined = refine_fundamental(start, uv_first, uv_second, weights=weights, steps=50)
 
     def cost(F):
         return float(weights @ sampson_distances(F, uv_first, uv_second) ** 2)
 
-    assert cost(found) <= cost(start) * (1 + 1e-9)
-    assert abs(np.linalg.det(found)) < 1e-15
+    assert cost(refined) <= cost(start) * (1 + 1e-9)
+    assert abs(np.linalg.det(refined)) < 1e-15
     rng = np.random.default_rng(seed)
-    U, s, Vt = np.linalg.svd(found)
+    U, s, Vt = np.linalg.svd(refined)
     for _ in range(8):  # no singular matrix nearby is better
         W, Z = (np.eye(3) + 1e-5 * rng.normal(size=(3, 3)) for _ in range(2))
         near = np.linalg.qr(U @ W)[0] @ np.diag(s) @ np.linalg.qr((Vt @ Z).T)[0].T
         signs = [np.diag(x) for x in np.array(np.meshgrid([1, -1], [1, -1])).reshape(2, -1).T]
         assert min(cost(U @ np.diag([*np.diag(sign), 1.0]) @ U.T @ near) for sign in signs) >= cost(
-            found
+            refined
         ) * (1 - 1e-5)
 
 
@@ -211,9 +211,9 @@ def test_real_roots_of_cubics_that_have_three(roots, lead):
 
 
 def test_a_cubic_with_one_real_root():
-    found = real_cubic_roots(np.poly([2.0, 1j, -1j]).real)
-    np.testing.assert_array_equal(np.isnan(found), [False, True, True])
-    assert found[0] == pytest.approx(2.0)
+    roots = real_cubic_roots(np.poly([2.0, 1j, -1j]).real)
+    np.testing.assert_array_equal(np.isnan(roots), [False, True, True])
+    assert roots[0] == pytest.approx(2.0)
 
 
 def test_the_real_pair_of_photographs_fits_its_truth(shared_data):

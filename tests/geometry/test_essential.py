@@ -47,15 +47,17 @@ def test_the_true_motion_is_one_of_four_and_alone_puts_points_in_front(seed):
     assert len(Ts) == 4
     counts = [
         before_both(
-            triangulate(camera_matrix(K, np.eye(4)), camera_matrix(L, one), uv_first, uv_second),
-            one,
+            triangulate(
+                camera_matrix(K, np.eye(4)), camera_matrix(L, candidate), uv_first, uv_second
+            ),
+            candidate,
         ).sum()
-        for one in Ts
+        for candidate in Ts
     ]
     assert sorted(counts) == [0, 0, 0, len(p)]
-    found = Ts[int(np.argmax(counts))]
-    assert degrees_between(found, T) < 1e-6
-    assert angle_between(found[:3, 3], T[:3, 3]) < 1e-8
+    chosen = Ts[int(np.argmax(counts))]
+    assert degrees_between(chosen, T) < 1e-6
+    assert angle_between(chosen[:3, 3], T[:3, 3]) < 1e-8
 
 
 @settings(max_examples=40, deadline=None)
@@ -106,26 +108,28 @@ def test_refinement_lowers_the_distances_and_stays_at_the_truth_without_noise(se
             ).sum()
         )
 
-    found = refine_motion(start, uv_first, uv_second, K_first=K, K_second=L)
-    assert np.linalg.norm(found[:3, 3]) == pytest.approx(1)
-    assert cost(found) <= cost(T) + 1e-9
+    refined = refine_motion(start, uv_first, uv_second, K_first=K, K_second=L)
+    assert np.linalg.norm(refined[:3, 3]) == pytest.approx(1)
+    assert cost(refined) <= cost(T) + 1e-9
     for axis in np.eye(3):  # a minimum: every small step raises the cost
         for step in (1e-4, -1e-4):
             assert (
-                cost(motion(exp_so3(step * axis) @ found[:3, :3], found[:3, 3]))
-                >= cost(found) - 1e-9
+                cost(motion(exp_so3(step * axis) @ refined[:3, :3], refined[:3, 3]))
+                >= cost(refined) - 1e-9
             )
-            assert cost(motion(found[:3, :3], found[:3, 3] + step * axis)) >= cost(found) - 1e-9
+            assert (
+                cost(motion(refined[:3, :3], refined[:3, 3] + step * axis)) >= cost(refined) - 1e-9
+            )
     T, _, uv_first, uv_second = pair(seed)
-    found = refine_motion(
+    refined = refine_motion(
         motion(exp_so3(np.full(3, 0.01)) @ T[:3, :3], T[:3, 3]),
         uv_first,
         uv_second,
         K_first=K,
         K_second=L,
     )
-    assert degrees_between(found, T) < 1e-5
-    assert angle_between(found[:3, 3], T[:3, 3]) < 1e-6
+    assert degrees_between(refined, T) < 1e-5
+    assert angle_between(refined[:3, 3], T[:3, 3]) < 1e-6
 
 
 def test_a_motion_that_only_turns_is_refused():
@@ -134,11 +138,11 @@ def test_a_motion_that_only_turns_is_refused():
 
 
 def test_the_fountains_motion(shared_data):
-    found = np.load(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
-    good = np.abs(found["gt_sampson"]) < 1
-    uv_first = found["x1"][good].astype(float)
-    uv_second = found["x2"][good].astype(float)
-    K_ = found["K1"]
+    fountain = np.load(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
+    good = np.abs(fountain["gt_sampson"]) < 1
+    uv_first = fountain["x1"][good].astype(float)
+    uv_second = fountain["x2"][good].astype(float)
+    K_ = fountain["K1"]
     E = essential_from_fundamental(fit_fundamental(uv_first, uv_second), K_, K_)
     Ts = essential_to_poses(E)
     P = camera_matrix(K_, np.eye(4))
@@ -147,10 +151,10 @@ def test_the_fountains_motion(shared_data):
     ]
     assert sorted(counts) == [0, 0, 0, 1365]
     T = refine_motion(Ts[int(np.argmax(counts))], uv_first, uv_second, K_first=K_, K_second=K_)
-    assert degrees_between(T[:3, :3], found["R_rel"]) < 0.05
-    assert np.degrees(angle_between(T[:3, 3], found["t_rel"])) < 0.2
+    assert degrees_between(T[:3, :3], fountain["R_rel"]) < 0.05
+    assert np.degrees(angle_between(T[:3, 3], fountain["t_rel"])) < 0.2
     everything = triangulate(
-        P, camera_matrix(K_, T), found["x1"].astype(float), found["x2"].astype(float)
+        P, camera_matrix(K_, T), fountain["x1"].astype(float), fountain["x2"].astype(float)
     )
     assert before_both(everything, T).sum() == pytest.approx(1428, abs=3)
 
@@ -173,6 +177,6 @@ def test_the_four_motions_come_in_one_order_whatever_basis_a_library_takes(seed)
     )  # as good a decomposition, since two singular values are equal
     np.testing.assert_allclose(other[0] @ np.diag(s) @ other[2], E, atol=1e-12)
     with unittest.mock.patch("numpy.linalg.svd", return_value=other):
-        found = essential_to_poses(E)
-    np.testing.assert_allclose(found, expected, atol=1e-9)
+        Ts = essential_to_poses(E)
+    np.testing.assert_allclose(Ts, expected, atol=1e-9)
     assert np.trace(expected[0, :3, :3]) >= np.trace(expected[2, :3, :3])

@@ -20,13 +20,13 @@ def pairs(seed: int, count: int = 40) -> list[np.ndarray]:
 
 def test_the_published_pair():
     n_j = np.array([[0.3, 0.1, 0.95]])
-    found = pair_angles(
+    angles = pair_angles(
         np.zeros((1, 3)),
         np.array([[0.0, 0, 1]]),
         np.array([[0.02, 0.01, 0.003]]),
         n_j / np.linalg.norm(n_j),
     )
-    np.testing.assert_allclose(found, [[0.3177, 0.0492, -0.4360]], atol=1e-4)
+    np.testing.assert_allclose(angles, [[0.3177, 0.0492, -0.4360]], atol=1e-4)
 
 
 @given(seed=st.integers(0, 500))
@@ -63,13 +63,13 @@ def plainly(p: np.ndarray, n: np.ndarray, radius: float) -> np.ndarray:
             t, a, f = pair_angles(p[[i]], n[[i]], p[[j]], n[[j]])[0]
             for k, x in enumerate(((t + np.pi) / (2 * np.pi), (a + 1) / 2, (f + 1) / 2)):
                 own[i, 11 * k + min(10, max(0, int(np.floor(11 * x))))] += 100 / len([*near[i]])
-    found = own.copy()
+    descriptors = own.copy()
     for i in range(len(p)):
         around = np.sum([own[j] / np.sum((p[j] - p[i]) ** 2) for j in near[i]], axis=0).reshape(
             3, 11
         )
-        found[i] += (100 * around / around.sum(axis=1, keepdims=True)).ravel()
-    return found
+        descriptors[i] += (100 * around / around.sum(axis=1, keepdims=True)).ravel()
+    return descriptors
 
 
 def test_it_is_what_the_loops_give():
@@ -154,17 +154,17 @@ OPEN3D = {  # compute_fpfh_feature of Open3D 0.20 within 0.15 m, at two of the p
 
 def test_it_is_what_open3d_gives():
     p = rabbit(400, np.random.default_rng(0))
-    found = fpfh(p, point_normals(p), 0.15)
-    np.testing.assert_allclose(found[list(OPEN3D)], list(OPEN3D.values()), atol=6e-4)
+    descriptors = fpfh(p, point_normals(p), 0.15)
+    np.testing.assert_allclose(descriptors[list(OPEN3D)], list(OPEN3D.values()), atol=6e-4)
 
 
 def test_it_does_not_change_with_a_motion_and_sums_to_600():
     p = rabbit(400, np.random.default_rng(1))
     n = point_normals(p)
     T = motion(exp_so3(np.array([0.5, -1.0, 0.3])), np.array([2.0, 1.0, 0.0]))
-    found = fpfh(p, n, 0.2)
-    np.testing.assert_allclose(found.sum(axis=1), 600)
-    off = np.abs(fpfh(apply(T, p), n @ T[:3, :3].T, 0.2) - found).max(axis=1)
+    descriptors = fpfh(p, n, 0.2)
+    np.testing.assert_allclose(descriptors.sum(axis=1), 600)
+    off = np.abs(fpfh(apply(T, p), n @ T[:3, :3].T, 0.2) - descriptors).max(axis=1)
     assert np.mean(off < 1e-6) > 0.95  # an angle on the border of two bins may change sides
 
 
@@ -178,7 +178,7 @@ def test_points_alone_or_at_one_place_have_zeros():
 def test_a_plane_has_all_angles_in_the_middle(radius):
     rng = np.random.default_rng(2)
     p = np.column_stack([rng.uniform(size=(200, 2)), np.zeros(200)])
-    found = fpfh(p, np.tile([0.0, 0, 1], (200, 1)), radius)
-    some = found.sum(axis=1) > 300
+    descriptors = fpfh(p, np.tile([0.0, 0, 1], (200, 1)), radius)
+    some = descriptors.sum(axis=1) > 300
     assert some.sum() > 100
-    np.testing.assert_allclose(found[some][:, [5, 16, 27]], 200)
+    np.testing.assert_allclose(descriptors[some][:, [5, 16, 27]], 200)

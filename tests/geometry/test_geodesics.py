@@ -139,7 +139,7 @@ def test_the_way_round_a_wall():
     straight = np.linalg.norm(p - q, axis=1)
     assert d[0] == pytest.approx(np.hypot(0.3, 0.3) + np.hypot(0.3, 0.5))
     np.testing.assert_allclose(d[1:], straight[1:])  # seen past the tip, or on this side
-    back = [geodesics.distance_past_wall(q[None], one, tip)[0] for one in p]
+    back = [geodesics.distance_past_wall(q[None], point, tip)[0] for point in p]
     np.testing.assert_allclose(back, d)
 
 

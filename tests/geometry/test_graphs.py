@@ -132,8 +132,8 @@ def test_hops():
     ],
 )
 def test_spectra_in_closed_form(adjacency, values):
-    found, functions = plain(adjacency).smallest(len(values))
-    np.testing.assert_allclose(found, values, atol=1e-11)
+    eigenvalues, functions = plain(adjacency).smallest(len(values))
+    np.testing.assert_allclose(eigenvalues, values, atol=1e-11)
     np.testing.assert_allclose(functions.T @ functions, np.eye(len(values)), atol=1e-9)
     np.testing.assert_allclose(
         graphs.laplacian(adjacency) @ functions, functions * values, atol=1e-9
@@ -225,12 +225,12 @@ def test_a_layer_of_the_karate_club():
 def test_a_sweep_is_every_cut_one_by_one(seed):
     adjacency = some_graph(seed)
     values = np.random.default_rng(seed).normal(size=30)
-    order, found = graphs.sweep(adjacency, values)
+    order, conductances = graphs.sweep(adjacency, values)
     np.testing.assert_array_equal(order, np.argsort(values))
     for k in range(29):
         side = np.isin(np.arange(30), order[: k + 1])
-        one = graphs.conductance(adjacency, side)
-        assert found[k] == pytest.approx(1.0 if np.isnan(one) else one)  # no edges at a side
+        phi = graphs.conductance(adjacency, side)
+        assert conductances[k] == pytest.approx(1.0 if np.isnan(phi) else phi)  # no edges at a side
         a, b = graphs.edges_of(adjacency).T
         through = side[a] != side[b]
         assert graphs.cut_weight(adjacency, side) == pytest.approx(
@@ -264,8 +264,8 @@ def test_a_side_without_edges_has_no_conductance():
 def test_distances_of_points_give_the_points_back(seed):
     p = np.random.default_rng(seed).normal(size=(12, 3))
     apart = np.linalg.norm(p[:, None] - p, axis=2)
-    found = classical_scaling(apart, 3)
-    np.testing.assert_allclose(np.linalg.norm(found[:, None] - found, axis=2), apart, atol=1e-7)
+    points = classical_scaling(apart, 3)
+    np.testing.assert_allclose(np.linalg.norm(points[:, None] - points, axis=2), apart, atol=1e-7)
 
 
 def test_stress_never_rises():

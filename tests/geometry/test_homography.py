@@ -34,20 +34,20 @@ def scene(seed: int, count: int = 30, sigma: float = 0.0):
 @given(seed=seeds)
 def test_four_matches_without_noise_give_the_homography(seed):
     _, uv_a, uv_b = scene(seed, 4)
-    found = homographies_from_four(uv_a, uv_b)
+    H = homographies_from_four(uv_a, uv_b)
     if not four_in_general_position(uv_a, uv_b):
-        assert np.isnan(found).all()
+        assert np.isnan(H).all()
         return
-    np.testing.assert_allclose(transfer_distances(found, uv_a, uv_b), 0.0, atol=1e-5)
-    assert np.linalg.norm(found) == pytest.approx(1.0)
+    np.testing.assert_allclose(transfer_distances(H, uv_a, uv_b), 0.0, atol=1e-5)
+    assert np.linalg.norm(H) == pytest.approx(1.0)
 
 
 @settings(max_examples=30, deadline=None)
 @given(seed=seeds)
 def test_the_linear_transform_is_exact_without_noise(seed):
     H, uv_a, uv_b = scene(seed)
-    found = fit_homography(uv_a, uv_b)
-    np.testing.assert_allclose(found * np.sign(found[2, 2] * H[2, 2]), H, atol=1e-8)
+    fitted = fit_homography(uv_a, uv_b)
+    np.testing.assert_allclose(fitted * np.sign(fitted[2, 2] * H[2, 2]), H, atol=1e-8)
 
 
 def test_weight_zero_is_absence_and_weight_two_is_twice():
@@ -70,7 +70,9 @@ def test_many_fitted_side_by_side_are_one_by_one():
     uv_a, uv_b = np.random.default_rng(0).uniform(0, 100, (2, 5, 12, 2))
     for H, a, b in zip(fit_homographies(uv_a, uv_b), uv_a, uv_b, strict=True):
         np.testing.assert_allclose(
-            H * np.sign(H[2, 2]), (one := fit_homography(a, b)) * np.sign(one[2, 2]), atol=1e-12
+            H * np.sign(H[2, 2]),
+            (single := fit_homography(a, b)) * np.sign(single[2, 2]),
+            atol=1e-12,
         )
 
 
@@ -90,8 +92,8 @@ def test_it_agrees_with_skimage():
 
 def test_far_from_the_origin_nothing_is_lost():
     _, uv_a, uv_b = scene(6)
-    found = fit_homography(uv_a + 1e5, uv_b - 1e5)
-    assert transfer_distances(found, uv_a + 1e5, uv_b - 1e5).max() < 1e-4
+    H = fit_homography(uv_a + 1e5, uv_b - 1e5)
+    assert transfer_distances(H, uv_a + 1e5, uv_b - 1e5).max() < 1e-4
 
 
 def test_a_quadrangle_that_no_camera_sees_is_refused():
@@ -124,7 +126,7 @@ def test_refinement_reaches_the_optimum_of_the_transfer_distance(seed):
     _, uv_a, uv_b = scene(seed, 40, sigma=2.0)
     weights = np.random.default_rng(seed).random(40) + 0.1
     start = fit_homography(uv_a, uv_b, weights)
-    found = refine_homography(start, uv_a, uv_b, weights=weights, steps=30)
+    refined = refine_homography(start, uv_a, uv_b, weights=weights, steps=30)
 
     def cost(H):
         return float(weights @ transfer_distances(H, uv_a, uv_b) ** 2)
@@ -137,14 +139,14 @@ def test_refinement_reaches_the_optimum_of_the_transfer_distance(seed):
     oracle = scipy.optimize.least_squares(
         residuals, (start / start[2, 2]).ravel()[:8], x_scale=x_scale
     )
-    assert cost(found) <= cost(start) * (1 + 1e-12)
-    assert cost(found) <= 2 * oracle.cost * (1 + 1e-6)
+    assert cost(refined) <= cost(start) * (1 + 1e-12)
+    assert cost(refined) <= 2 * oracle.cost * (1 + 1e-6)
 
 
 def test_normalised_pixels_have_the_promised_spread():
     uv = np.random.default_rng(0).uniform(0, 4000, (2, 50, 2))
-    for one, T in zip(uv, normalising_similarity(uv), strict=True):
-        moved = (homogeneous(one) @ T.T)[:, :2]
+    for pixels, T in zip(uv, normalising_similarity(uv), strict=True):
+        moved = (homogeneous(pixels) @ T.T)[:, :2]
         np.testing.assert_allclose(moved.mean(0), 0, atol=1e-9)
         assert np.linalg.norm(moved, axis=1).mean() == pytest.approx(np.sqrt(2))
     assert np.isfinite(normalising_similarity(np.ones((5, 2)))).all()
@@ -177,14 +179,14 @@ def test_the_null_vectors_of_many_small_matrices_are_those_of_each(columns):
     A[20] = 0.0
     A[21, :, 0] = A[21, :, -1]  # singular
     A[22] = np.eye(columns + 1, columns)  # no direction is the least
-    found = null_vectors(A)
-    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0)
+    vectors = null_vectors(A)
+    np.testing.assert_allclose(np.linalg.norm(vectors, axis=1), 1.0)
     least = np.linalg.svd(A)[1][:, -1]
-    lengths = np.linalg.norm(A @ found[..., None], axis=(1, 2))
+    lengths = np.linalg.norm(A @ vectors[..., None], axis=(1, 2))
     np.testing.assert_allclose(lengths, least, rtol=1e-9, atol=1e-14)
-    for one, A_one in zip(found[:20], A[:20], strict=True):
+    for vector, A_one in zip(vectors[:20], A[:20], strict=True):
         known = null_vector(A_one)
-        np.testing.assert_allclose(one * np.sign(one @ known), known, atol=1e-12)
+        np.testing.assert_allclose(vector * np.sign(vector @ known), known, atol=1e-12)
 
 
 def test_no_matrices_have_no_null_vectors():

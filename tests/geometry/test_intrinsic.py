@@ -47,13 +47,13 @@ def wrung(count: int, turn: float) -> tuple[np.ndarray, np.ndarray]:
 
 def test_in_the_plane_it_is_the_triangulation_of_scipy():
     p, faces = sheared(9, 2.3)
-    found = {tuple(sorted(face)) for face in intrinsic_delaunay(p, faces).vertices.T.tolist()}
+    ours = {tuple(sorted(face)) for face in intrinsic_delaunay(p, faces).vertices.T.tolist()}
     hull = {tuple(sorted(face)) for face in scipy.spatial.Delaunay(p[:, :2]).simplices.tolist()}
     deep = [
         face for face in hull if all(1 <= v // 9 <= 7 and 1 <= v % 9 <= 7 for v in face)
     ]  # away from the border
     assert len(deep) > 40
-    assert set(deep) <= found
+    assert set(deep) <= ours
     assert not set(deep) <= {tuple(sorted(face)) for face in faces.tolist()}
 
 

@@ -24,14 +24,14 @@ def kept(H: np.ndarray) -> dict[str, bool]:
 def test_measures_agree_with_trimesh(shape):
     s = solid(shape)
     mesh = trimesh.Trimesh(s.p, s.faces, process=False)
-    found = measure(s.p, s.faces)
+    measures = measure(s.p, s.faces)
     assert mesh.is_watertight
     assert mesh.is_winding_consistent
-    assert found.volume == pytest.approx(mesh.volume)
-    assert found.area == pytest.approx(mesh.area)
-    np.testing.assert_allclose(np.sort(found.lengths), np.sort(mesh.edges_unique_length))
+    assert measures.volume == pytest.approx(mesh.volume)
+    assert measures.area == pytest.approx(mesh.area)
+    np.testing.assert_allclose(np.sort(measures.lengths), np.sort(mesh.edges_unique_length))
     np.testing.assert_allclose(
-        found.angles, mesh.face_angles, atol=1e-7
+        measures.angles, mesh.face_angles, atol=1e-7
     )  # trimesh loses digits in an arc cosine
 
 
@@ -88,6 +88,6 @@ def test_volume_far_from_the_origin():
 
 def test_an_open_mesh_has_no_volume():
     s = house()
-    found = measure(s.p, s.faces[1:])
-    assert np.isnan(found.volume)
-    assert [c.name for c in changes(found, found)] == NAMES[:4]
+    measures = measure(s.p, s.faces[1:])
+    assert np.isnan(measures.volume)
+    assert [c.name for c in changes(measures, measures)] == NAMES[:4]

@@ -149,10 +149,10 @@ def edge_between(a: int, b: int) -> int:
     return 4 * axis + begins.index(min(a, b))
 
 
-def one_face_has(one: int, other: int) -> bool:
+def one_face_has(edge: int, other: int) -> bool:
     """Whether two edges are on one face of the cell."""
     on = [{edge_between(a, b) for a, b in itertools.pairwise([*face, face[0]])} for face in FACES]
-    return any({one, other} <= edges for edges in on)
+    return any({edge, other} <= edges for edges in on)
 
 
 @given(SHAPES)

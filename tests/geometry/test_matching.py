@@ -16,11 +16,11 @@ def test_nearest_both_ways_are_scipys(monkeypatch):
     D = scipy.spatial.distance.cdist(a, b)
     for cells in (100, 10**7):
         monkeypatch.setattr(matching, "_CELLS", cells)
-        found = matching.nearest_both_ways(a, b)
-        np.testing.assert_array_equal(found.index, D.argmin(axis=1))
-        np.testing.assert_array_equal(found.back, D.argmin(axis=0))
+        nearest = matching.nearest_both_ways(a, b)
+        np.testing.assert_array_equal(nearest.index, D.argmin(axis=1))
+        np.testing.assert_array_equal(nearest.back, D.argmin(axis=0))
         np.testing.assert_allclose(
-            np.column_stack([found.distance, found.second]), np.sort(D, axis=1)[:, :2]
+            np.column_stack([nearest.distance, nearest.second]), np.sort(D, axis=1)[:, :2]
         )
 
 
@@ -31,10 +31,10 @@ def test_planted_matches_are_found_and_nothing_else():
     b = np.concatenate(
         [a[order] + 0.01 * rng.normal(size=(30, 8)), 10 * rng.normal(size=(20, 8)) + 300]
     )
-    found = matching.mutual_matches(a, b, 0.5)
+    matches = matching.mutual_matches(a, b, 0.5)
     right = np.full(50, -1)
     right[order] = np.arange(30)
-    np.testing.assert_array_equal(found, right)
+    np.testing.assert_array_equal(matches, right)
     kept = matching.filtered(matching.nearest_both_ways(a, b), "both", 0.5)
     np.testing.assert_array_equal(
         kept, np.column_stack([np.flatnonzero(right >= 0), right[right >= 0]])
@@ -60,12 +60,12 @@ def test_what_cannot_be_matched_is_refused():
 
 def test_the_response_turns_with_the_picture_and_edges_are_negative():
     image = np.random.default_rng(3).uniform(0, 255, (30, 40))
-    found = keypoints.harris_response(image)
+    response = keypoints.harris_response(image)
     np.testing.assert_allclose(
-        keypoints.harris_response(np.rot90(image)), np.rot90(found), rtol=1e-9, atol=1e-6
+        keypoints.harris_response(np.rot90(image)), np.rot90(response), rtol=1e-9, atol=1e-6
     )
     np.testing.assert_allclose(
-        keypoints.harris_response(0.5 * image + 20), found / 16, rtol=1e-9, atol=1e-6
+        keypoints.harris_response(0.5 * image + 20), response / 16, rtol=1e-9, atol=1e-6
     )
     edge = np.where(np.arange(30) < 15, 0.0, 200.0) * np.ones((30, 1))
     assert keypoints.harris_response(edge).max() < 1e-6
@@ -114,10 +114,10 @@ def test_iss_keypoints_are_those_of_loops_about_the_point_and_not_open3ds():
             if least[i] > max((least[j] for j in around[i] if j != i), default=0.0)
         }
 
-    found = set(keypoints.iss_keypoints(p, 0.2, 0.12).tolist())
-    assert found == by(False)
+    ours = set(keypoints.iss_keypoints(p, 0.2, 0.12).tolist())
+    assert ours == by(False)
     assert by(True) == set(OPEN3D)
-    assert len(found & set(OPEN3D)) < 0.2 * len(found)
+    assert len(ours & set(OPEN3D)) < 0.2 * len(ours)
 
 
 def test_shape_contexts_ignore_scale_and_along_the_tangent_a_turn():
@@ -157,8 +157,8 @@ def test_a_distance_that_is_the_ratio_times_the_second_is_not_less():
         a = np.full((1, 2), offset)
         assert matching.mutual_matches(a, b, 0.5).tolist() == [-1]
         assert matching.mutual_matches(a, b, 0.51).tolist() == [0]
-        found = matching.nearest_both_ways(a, b[[1, 1, 0]])
-        assert (found.index.tolist(), found.distance.tolist(), found.second.tolist()) == (
+        nearest = matching.nearest_both_ways(a, b[[1, 1, 0]])
+        assert (nearest.index.tolist(), nearest.distance.tolist(), nearest.second.tolist()) == (
             [2],
             [1.0],
             [2.0],

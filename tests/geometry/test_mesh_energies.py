@@ -46,8 +46,8 @@ def test_energies_do_not_change_when_all_moves_and_their_gradients_add_up_to_not
     p, faces = random_closed(np.random.default_rng(2), 60)
     moved = p[:, [1, 2, 0]] + [3.0, -1, 2]  # a third of a turn about (1, 1, 1)
     for name, (value, slope) in energies(p, faces).items():
-        there, slope_there = energies(moved, faces)[name]
-        assert there == pytest.approx(value)
+        value_there, slope_there = energies(moved, faces)[name]
+        assert value_there == pytest.approx(value)
         np.testing.assert_allclose(slope_there, slope[:, [1, 2, 0]], atol=1e-12)
         np.testing.assert_allclose(slope.sum(axis=0), 0, atol=1e-12)
 

@@ -240,8 +240,8 @@ def test_distinct_rows_are_those_that_numpy_finds():
         np.ones((1, 2)),
     ):
         first, name = meshes.distinct_rows(rows)
-        found, inverse = (
+        distinct, inverse = (
             np.unique(rows, axis=0, return_inverse=True) if len(rows) else (rows, np.empty(0, int))
         )
-        np.testing.assert_array_equal(rows[first], found)
+        np.testing.assert_array_equal(rows[first], distinct)
         np.testing.assert_array_equal(name, inverse.reshape(-1))

@@ -68,8 +68,8 @@ def test_squares_break_it_where_the_angle_at_b_is_obtuse():
 )
 def test_scipy_agrees(metric, theirs):
     a, b, _ = some(1, 20, 4)
-    found = metrics.distance_of(metric)(a[:, None], b[None])
-    np.testing.assert_allclose(found, scipy.spatial.distance.cdist(a, b, theirs), atol=1e-12)
+    distances = metrics.distance_of(metric)(a[:, None], b[None])
+    np.testing.assert_allclose(distances, scipy.spatial.distance.cdist(a, b, theirs), atol=1e-12)
     minkowski = metrics.distance_of("p", order=3.0)(a[:, None], b[None])
     np.testing.assert_allclose(minkowski, scipy.spatial.distance.cdist(a, b, "minkowski", p=3.0))
 
@@ -96,14 +96,14 @@ def test_mahalanobis_beside_scipy_and_under_any_change_of_units(seed, dims):
     p = rng.normal(size=(9, dims))
     mean = rng.normal(size=dims)
     S = A @ A.T + 0.1 * np.eye(dims)
-    found = metrics.mahalanobis(p, mean, S)
+    distances = metrics.mahalanobis(p, mean, S)
     inverse = np.linalg.inv(S)
     np.testing.assert_allclose(
-        found, [scipy.spatial.distance.mahalanobis(x, mean, inverse) for x in p], rtol=1e-6
+        distances, [scipy.spatial.distance.mahalanobis(x, mean, inverse) for x in p], rtol=1e-6
     )
     B = rng.normal(size=(dims, dims)) + 3 * np.eye(dims)
     np.testing.assert_allclose(
-        metrics.mahalanobis(p @ B.T, B @ mean, B @ S @ B.T), found, rtol=1e-6
+        metrics.mahalanobis(p @ B.T, B @ mean, B @ S @ B.T), distances, rtol=1e-6
     )
     W = metrics.whitening(S)
     np.testing.assert_allclose(W @ S @ W.T, np.eye(dims), atol=1e-9)

@@ -144,4 +144,4 @@ def test_the_angle_between_vectors_does_not_depend_on_their_lengths(turn, length
 
 def test_turns_are_those_of_one():
     w = np.random.default_rng(0).normal(size=(6, 3)) * [[0], [1e-9], [1e-3], [1], [2], [3]]
-    np.testing.assert_allclose(turns(w), [exp_so3(one) for one in w], atol=1e-14)
+    np.testing.assert_allclose(turns(w), [exp_so3(vector) for vector in w], atol=1e-14)

@@ -53,13 +53,13 @@ def test_the_closed_form_agrees_with_eigh(seed):
     rng = np.random.default_rng(seed)
     X = rng.standard_normal((200, 8, 3)) * 10.0 ** rng.uniform(-4, 1, (200, 1, 3))
     C = np.einsum("nki,nkj->nij", X, X)
-    found, _ = _directions(
+    normals, _ = _directions(
         np.stack([C[:, i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))])
     )
-    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0, atol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-9)
     values = np.linalg.eigvalsh(C)
     quotient = np.einsum(
-        "ni,nij,nj->n", found, C, found
+        "ni,nij,nj->n", normals, C, normals
     )  # Rayleigh: how much worse than the best direction
     assert np.all(quotient - values[:, 0] <= 1e-10 * values[:, 2])
 
@@ -122,11 +122,11 @@ def test_normals_of_some_points_are_those_of_all(spread):
 
 
 def lines(p: np.ndarray) -> np.ndarray:
-    found = np.zeros(len(p), bool)
+    on_line = np.zeros(len(p), bool)
     everywhere = np.ones(len(p), bool)
     for rows, covariances in _neighbourhoods(p, scipy.spatial.KDTree(p), 16, wanted=everywhere):
-        found[rows] = _directions(covariances)[1]
-    return found
+        on_line[rows] = _directions(covariances)[1]
+    return on_line
 
 
 def test_points_on_rings_lie_on_lines_and_points_on_a_surface_do_not():

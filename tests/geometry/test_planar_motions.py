@@ -70,7 +70,7 @@ def test_the_two_are_opencvs():
 
 def test_side_by_side_is_one_by_one():
     views = [view(seed, 9, sigma=1e-3, flat=True) for seed in range(6)]
-    p, xy = np.stack([one[1] for one in views]), np.stack([one[2] for one in views])
+    p, xy = np.stack([sample[1] for sample in views]), np.stack([sample[2] for sample in views])
     for together, a, b in zip(planar_motions(p, xy), p, xy, strict=True):
         np.testing.assert_allclose(together, planar_motions(a, b), atol=1e-9)
     noisy = xy[0] + 1e-3 * np.random.default_rng(0).normal(size=(4, 9, 2))

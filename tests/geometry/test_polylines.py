@@ -19,12 +19,12 @@ from workbench.geometry.polylines import (
 @pytest.mark.parametrize("n", [1, 2, 5])
 def test_each_segment_starts_where_the_one_before_ends(n, closed):
     p = np.random.default_rng(n).normal(size=(n, 3))
-    found = segments(p, closed=closed)
-    assert len(found) == (n if closed else n - 1)
-    np.testing.assert_array_equal(found[:, 0], p[: len(found)])
-    np.testing.assert_array_equal(found[1:, 0], found[:-1, 1])
+    pieces = segments(p, closed=closed)
+    assert len(pieces) == (n if closed else n - 1)
+    np.testing.assert_array_equal(pieces[:, 0], p[: len(pieces)])
+    np.testing.assert_array_equal(pieces[1:, 0], pieces[:-1, 1])
     if closed:
-        np.testing.assert_array_equal(found[-1, 1], p[0])
+        np.testing.assert_array_equal(pieces[-1, 1], p[0])
 
 
 @pytest.mark.parametrize("n", [3, 4, 9])

@@ -38,8 +38,8 @@ def test_lines_a_metre_apart_meet_far_away(degrees, metres):
 
 @given(VECTORS, VECTORS)
 def test_what_meets_still_meets(a, b):
-    there = meet(map_lines(H, a), map_lines(H, b)) * np.linalg.det(H)
-    np.testing.assert_allclose(there, meet(a, b) @ H.T, atol=1e-9)
+    mapped = meet(map_lines(H, a), map_lines(H, b)) * np.linalg.det(H)
+    np.testing.assert_allclose(mapped, meet(a, b) @ H.T, atol=1e-9)
 
 
 def test_the_cross_ratio_is_kept_and_lengths_are_not():
@@ -58,9 +58,9 @@ def test_rays_are_the_same_at_any_factor(v, factor):
 
 
 def test_no_ray_has_no_angle():
-    zero, one = np.zeros((1, 3)), np.ones((1, 3))
-    assert np.isnan(angle_between_rays(zero, one)).all()
-    assert np.isnan(angle_between_rays(np.full((1, 3), np.inf), one)).all()
+    zero, ones = np.zeros((1, 3)), np.ones((1, 3))
+    assert np.isnan(angle_between_rays(zero, ones)).all()
+    assert np.isnan(angle_between_rays(np.full((1, 3), np.inf), ones)).all()
     np.testing.assert_allclose(
         angle_between_rays(np.array([[1.0, 0, 0]]), np.array([[0.0, 2, 0]])), np.pi / 2
     )

@@ -104,11 +104,11 @@ def test_scale_and_orientation():
 
 def test_noise_hurts_it_less_than_the_triangles_and_less_with_more_rings():
     noisy = with_noise(torus(5000), 0.001, np.random.default_rng(0))
-    found = curvatures(noisy.p, noisy.faces)
+    by_triangles = curvatures(noisy.p, noisy.faces)
     two = errors(noisy)
     three = errors(noisy, rings=3)
-    assert two[0] < relative(found.gaussian, noisy.gaussian) / 4
-    assert two[1] < relative(found.mean, noisy.mean) / 4
+    assert two[0] < relative(by_triangles.gaussian, noisy.gaussian) / 4
+    assert two[1] < relative(by_triangles.mean, noisy.mean) / 4
     assert three[0] < two[0] / 2
 
 

@@ -361,8 +361,8 @@ def test_the_part_in_a_rectangle_is_the_part_in_the_rectangle(seed):
     share = np.linspace(0, 1, 1001)
     along = uv[:, None, 0] + share[:, None] * (uv[:, None, 1] - uv[:, None, 0])
     inside = ((along > 0) & (along < 1)).all(axis=2)
-    said = (share > start[:, None] - 1e-9) & (share < stop[:, None] + 1e-9)
-    assert (inside <= said).all()
+    kept = (share > start[:, None] - 1e-9) & (share < stop[:, None] + 1e-9)
+    assert (inside <= kept).all()
     assert (~inside & (share > start[:, None] + 1e-9) & (share < stop[:, None] - 1e-9)).sum() == 0
 
 
@@ -385,7 +385,7 @@ def test_points_in_sight_are_those_that_nothing_stands_before():
     T_camera_world = look_at(np.array([0.5, -3.0, 1.7]), np.array([0.3, 8.0, 1.0]))
     K_street = intrinsics(260.0, 159.5, 119.5)
     eye = camera_center(T_camera_world)
-    p, n = (one[:600] for one in street_map())
+    p, n = (vectors[:600] for vectors in street_map())
     p = np.concatenate(
         [p[((eye - p) * n).sum(axis=1) > 0], eye + np.array([[0.0, -4.0, 0.0], [0.0, 0.0, 0.0]])]
     )
@@ -396,7 +396,7 @@ def test_points_in_sight_are_those_that_nothing_stands_before():
         depth=render(street_items(), T_camera_world, K_street, width=320, height=240).depth,
     )
     a, b, c = np.concatenate(
-        [one.p_world[one.faces] for one in street().solids.values()]
+        [solid.p_world[solid.faces] for solid in street().solids.values()]
     ).transpose(1, 0, 2)
     free = []
     for v in p[:-2] - eye:  # eye + s v = a + g (b - a) + h (c - a), by Cramer's rule

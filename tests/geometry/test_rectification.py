@@ -25,20 +25,23 @@ def beside(heading: float, turn: float = 0.0) -> np.ndarray:
 @given(seed=seeds)
 def test_rows_correspond_and_disparity_is_depth(seed):
     T, p, uv_first, uv_second = pair(seed)
-    found = rectify(T, K, L)
-    uv, st_ = transform_pixels(found.H_first, uv_first), transform_pixels(found.H_second, uv_second)
+    rectified = rectify(T, K, L)
+    uv, st_ = (
+        transform_pixels(rectified.H_first, uv_first),
+        transform_pixels(rectified.H_second, uv_second),
+    )
     np.testing.assert_allclose(uv[:, 1], st_[:, 1], atol=1e-7)
     d = (uv - st_)[:, 0]
-    assert (d < 0).all() == found.second_is_left
-    assert (d > 0).all() == (not found.second_is_left)
+    assert (d < 0).all() == rectified.second_is_left
+    assert (d > 0).all() == (not rectified.second_is_left)
     camera = StereoCamera(
-        found.K[0, 0], found.K[0, 2], found.K[1, 2], float(np.linalg.norm(T[:3, 3]))
+        rectified.K[0, 0], rectified.K[0, 2], rectified.K[1, 2], float(np.linalg.norm(T[:3, 3]))
     )
     np.testing.assert_allclose(
-        camera.depth(np.abs(d)), (p @ found.R_rectified_first.T)[:, 2], atol=1e-6
+        camera.depth(np.abs(d)), (p @ rectified.R_rectified_first.T)[:, 2], atol=1e-6
     )
     np.testing.assert_allclose(
-        found.R_rectified_second @ T[:3, :3], found.R_rectified_first, atol=1e-12
+        rectified.R_rectified_second @ T[:3, :3], rectified.R_rectified_first, atol=1e-12
     )
 
 
@@ -85,13 +88,15 @@ def test_no_baseline_and_one_along_the_axis_are_refused():
 @given(seed=seeds)
 def test_fitted_pictures_are_inside_and_keep_their_rows(seed):
     T, _, uv_first, uv_second = pair(seed)
-    found = rectify(T, K, L)
-    if torn(found.H_first, SIZE) or torn(found.H_second, SIZE):
+    rectified = rectify(T, K, L)
+    if torn(rectified.H_first, SIZE) or torn(rectified.H_second, SIZE):
         return
-    H, G = fitted(found.H_first, found.H_second, size_first=SIZE, size_second=SIZE, size=(400, 300))
+    H, G = fitted(
+        rectified.H_first, rectified.H_second, size_first=SIZE, size_second=SIZE, size=(400, 300)
+    )
     corners = np.array([[-0.5, -0.5], [1023.5, -0.5], [1023.5, 682.5], [-0.5, 682.5]])
-    for one in (H, G):
-        uv = transform_pixels(one, corners)
+    for homography in (H, G):
+        uv = transform_pixels(homography, corners)
         assert (uv > -1).all()
         assert (uv < [400, 300]).all()
     np.testing.assert_allclose(
@@ -126,12 +131,12 @@ def test_opencv_turns_the_cameras_alike():
 
 
 def test_the_fountains_rows(shared_data):
-    found = np.load(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
-    good = np.abs(found["gt_sampson"]) < 1
-    uv_first = found["x1"][good].astype(float)
-    uv_second = found["x2"][good].astype(float)
-    K_ = found["K1"]
-    T = motion(found["R_rel"], found["t_rel"])
+    fountain = np.load(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
+    good = np.abs(fountain["gt_sampson"]) < 1
+    uv_first = fountain["x1"][good].astype(float)
+    uv_second = fountain["x2"][good].astype(float)
+    K_ = fountain["K1"]
+    T = motion(fountain["R_rel"], fountain["t_rel"])
     ours = rectify(T, K_, K_)
     rows = (
         transform_pixels(ours.H_first, uv_first)[:, 1]

@@ -25,11 +25,11 @@ def test_it_agrees_with_scipy_where_the_residual_is_not_zero():
         e = np.exp(-q[1] * x)
         return q[0] * e - y, np.column_stack([e, -q[0] * x * e])
 
-    found = levenberg_marquardt(model, np.add, np.array([1.0, 1.0]), tolerance=1e-14, steps=50)
+    solution = levenberg_marquardt(model, np.add, np.array([1.0, 1.0]), tolerance=1e-14, steps=50)
     oracle = scipy.optimize.least_squares(
         lambda q: model(q)[0], [1.0, 1.0], xtol=1e-14, ftol=1e-14, gtol=1e-14
     )
-    np.testing.assert_allclose(found, oracle.x, atol=1e-7)
+    np.testing.assert_allclose(solution, oracle.x, atol=1e-7)
 
 
 def test_the_cost_never_rises():
@@ -41,8 +41,8 @@ def test_the_cost_never_rises():
         return residuals, jacobian
 
     start = np.array([-1.2, 1.0])
-    found = levenberg_marquardt(noted, np.add, start, steps=7)
-    end = rosenbrock(found)[0]
+    solution = levenberg_marquardt(noted, np.add, start, steps=7)
+    end = rosenbrock(solution)[0]
     assert end @ end == min(cost for cost, _ in costs) < costs[0][0]
 
 

@@ -19,11 +19,13 @@ from workbench.geometry.motions.rotation_outputs import (
 )
 
 ALL = [
-    *((name, one, 2) for name, one in IN_PLANE.items()),
-    *((name, one, 3) for name, one in IN_SPACE.items()),
+    *((name, representation, 2) for name, representation in IN_PLANE.items()),
+    *((name, representation, 3) for name, representation in IN_SPACE.items()),
 ]
 every = pytest.mark.parametrize(
-    ("representation", "d"), [(one, d) for _, one, d in ALL], ids=[n for n, _, _ in ALL]
+    ("representation", "d"),
+    [(representation, d) for _, representation, d in ALL],
+    ids=[n for n, _, _ in ALL],
 )
 
 
@@ -31,12 +33,12 @@ def differences(
     representation: Representation, y: np.ndarray, slope: np.ndarray, *, h: float = 1e-6
 ) -> np.ndarray:
     """The gradient of sum(slope * decode(y)) by central differences."""
-    found = np.empty_like(y)
+    gradient = np.empty_like(y)
     for k in range(y.shape[1]):
         step = h * np.eye(y.shape[1])[k]
         change = representation.decode(y + step) - representation.decode(y - step)
-        found[:, k] = (slope * change).sum(axis=(1, 2)) / (2 * h)
-    return found
+        gradient[:, k] = (slope * change).sum(axis=(1, 2)) / (2 * h)
+    return gradient
 
 
 @every
@@ -133,8 +135,8 @@ def test_only_vectors_of_unit_length_columns_and_entries_are_continuous():
     axes = np.eye(3)[2]
     solid = Rotation.from_rotvec([near * axes, -near * axes]).as_matrix()
     jumps = {
-        name: np.abs(np.diff(one.numbers(flat if d == 2 else solid), axis=0)).max()
-        for name, one, d in ALL
+        name: np.abs(np.diff(representation.numbers(flat if d == 2 else solid), axis=0)).max()
+        for name, representation, d in ALL
     }
     assert {name for name, jump in jumps.items() if jump < 1e-3} == {"cosine and sine", "6D", "9D"}
     assert min(jump for jump in jumps.values() if jump > 1e-3) > 1.9

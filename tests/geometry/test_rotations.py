@@ -65,10 +65,10 @@ def test_euler_agrees_with_scipy(angles, order):
 @settings(max_examples=10)
 def test_euler_angles_agree_with_scipy_away_from_lock(order, angles):
     R = euler_to_matrix(angles, order)
-    found = matrix_to_euler(R, order)
-    np.testing.assert_allclose(euler_to_matrix(found, order), R, atol=2e-12)
+    recovered = matrix_to_euler(R, order)
+    np.testing.assert_allclose(euler_to_matrix(recovered, order), R, atol=2e-12)
     if gimbal_margin(angles, order) > 1e-3:
-        difference = found - Rotation.from_matrix(R).as_euler(order)
+        difference = recovered - Rotation.from_matrix(R).as_euler(order)
         np.testing.assert_allclose(
             np.sin(difference / 2), 0, atol=1e-10
         )  # -pi and pi are one angle
@@ -80,10 +80,10 @@ def test_the_rotation_survives_in_and_near_gimbal_lock(order, off):
     for middle in locked(order):
         for outer in ([0.4, 1.9], [-2.5, 0.3], [0.0, 0.0], [3.0, -3.0]):
             R = euler_to_matrix(np.array([outer[0], middle + off, outer[1]]), order)
-            found = matrix_to_euler(R, order)
-            np.testing.assert_allclose(euler_to_matrix(found, order), R, atol=1e-12)
+            recovered = matrix_to_euler(R, order)
+            np.testing.assert_allclose(euler_to_matrix(recovered, order), R, atol=1e-12)
             if off == 0.0:
-                assert found[2] == 0.0
+                assert recovered[2] == 0.0
 
 
 @given(st.tuples(angle, angle), orders, st.floats(-3, 3))

@@ -23,10 +23,10 @@ def test_the_body_turns_by_so_much_about_the_lost_axis(order, middle, turn):
     first, second, _ = euler_axes(angles, order)
     lost = np.cross(first, second)
     assert np.linalg.norm(lost) == pytest.approx(1.0)
-    found = triple_past_lock(angles, order, turn)
-    made = euler_to_matrix(found, order) @ euler_to_matrix(angles, order).T
+    triple = triple_past_lock(angles, order, turn)
+    made = euler_to_matrix(triple, order) @ euler_to_matrix(angles, order).T
     np.testing.assert_allclose(made, exp_so3(turn * lost), atol=1e-7)
     assert rotation_angle(made) == pytest.approx(abs(turn))
-    both = [matrix_to_euler(euler_to_matrix(found, order), order)]
+    both = [matrix_to_euler(euler_to_matrix(triple, order), order)]
     both.append(other_triple(both[0], order))
-    assert angles_apart(found, angles) == pytest.approx(min(angles_apart(b, angles) for b in both))
+    assert angles_apart(triple, angles) == pytest.approx(min(angles_apart(b, angles) for b in both))

@@ -73,11 +73,11 @@ def test_chance_has_the_binomial_error():
     right = 1.0
     rng = np.random.default_rng(4)
     box_volume = 4.0
-    found = np.array(
+    estimates = np.array(
         [volume_by_chance(rng.random(200) < right / box_volume, box_volume) for _ in range(2000)]
     )
-    assert found[:, 0].mean() == pytest.approx(right, abs=0.02)
-    assert found[:, 0].std() == pytest.approx(found[:, 1].mean(), rel=0.06)
+    assert estimates[:, 0].mean() == pytest.approx(right, abs=0.02)
+    assert estimates[:, 0].std() == pytest.approx(estimates[:, 1].mean(), rel=0.06)
     with pytest.raises(ValueError, match="no points"):
         volume_by_chance(np.zeros(0, bool), 1.0)
 

@@ -49,9 +49,9 @@ def all_faces(p: np.ndarray, faces: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Return distances by asking every triangle for every point, with trimesh."""
     corners = p[faces]
     answer = []
-    for one in q:
-        near = trimesh.triangles.closest_point(corners, np.tile(one, (len(faces), 1)))
-        answer.append(np.linalg.norm(near - one, axis=1).min())
+    for point in q:
+        near = trimesh.triangles.closest_point(corners, np.tile(point, (len(faces), 1)))
+        answer.append(np.linalg.norm(near - point, axis=1).min())
     return np.array(answer)
 
 
@@ -77,23 +77,23 @@ def test_distances_move_with_the_mesh():
     q = some(200, 4)
     R = exp_so3(np.array([0.3, -1.0, 2.0]))
     here = mesh_sdf(face_tree(made.p, made.faces, closed=True), q)
-    there = mesh_sdf(face_tree(made.p @ R.T + 3, made.faces, closed=True), q @ R.T + 3)
-    np.testing.assert_allclose(here, there, atol=1e-12)
+    moved = mesh_sdf(face_tree(made.p @ R.T + 3, made.faces, closed=True), q @ R.T + 3)
+    np.testing.assert_allclose(here, moved, atol=1e-12)
 
 
 def test_an_open_mesh_has_no_negative_distances():
     made = surfaces.cylinder(200)
-    found = mesh_sdf(face_tree(made.p, made.faces, closed=False), some(50, 5))
-    assert (found >= 0).all()
+    distances = mesh_sdf(face_tree(made.p, made.faces, closed=False), some(50, 5))
+    assert (distances >= 0).all()
 
 
 @pytest.mark.parametrize("corner", [0.0, 1e-9])
 def test_a_single_triangle_and_one_without_area(corner):
     p = np.array([[0.0, 0, 0], [1, 0, 0], [0.5, corner, 0]])
-    found = mesh_sdf(
+    distances = mesh_sdf(
         face_tree(p, np.array([[0, 1, 2]]), closed=False), np.array([[0.5, 0, 2], [3, 0, 0.0]])
     )
-    np.testing.assert_allclose(found, [2, 2], atol=1e-8)
+    np.testing.assert_allclose(distances, [2, 2], atol=1e-8)
 
 
 def test_no_points_have_no_distances():

@@ -8,8 +8,8 @@ from workbench.geometry.graphs.spectra import Laplacian
 
 
 def of_path(count: int) -> Laplacian:
-    one = np.ones(count - 1)
-    return of(scipy.sparse.diags_array(np.stack([one, one]), offsets=[-1, 1]))
+    ones = np.ones(count - 1)
+    return of(scipy.sparse.diags_array(np.stack([ones, ones]), offsets=[-1, 1]))
 
 
 def of(adjacency) -> Laplacian:

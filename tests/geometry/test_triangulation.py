@@ -40,9 +40,9 @@ def test_covariances_are_what_repetition_shows():
     sigma = 0.5
     rng = np.random.default_rng(0)
     uv = [np.divide(*np.split(p_h, [2])) for p_h in (P @ [*p, 1], Q @ [*p, 1])]
-    found = triangulate(P, Q, *(x + sigma * rng.normal(size=(n, 2)) for x in uv))
+    triangulated = triangulate(P, Q, *(x + sigma * rng.normal(size=(n, 2)) for x in uv))
     predicted = triangulation_covariances(P, Q, p[None], sigma=sigma)[0]
-    np.testing.assert_allclose(np.cov(found.T), predicted, atol=0.06 * predicted[2, 2])
+    np.testing.assert_allclose(np.cov(triangulated.T), predicted, atol=0.06 * predicted[2, 2])
     assert np.sqrt(predicted[2, 2]) == pytest.approx(
         8**2 / 900 * sigma * np.sqrt(2), rel=0.02
     )  # Z² sigma_d / (f b)

@@ -87,8 +87,8 @@ def test_a_class_is_counted_by_the_weights_of_its_assignment(tmp_path, capsys):
 
 WEIGHTS = ('{"nothing": 1}', '{"match": NaN}', '{"match": "1"}', "[1]", "{}")
 DATED = [
-    f'{{"weights": {one}, "release": null, "due": null, "service": "folder", "sandbox": "auto"}}'
-    for one in WEIGHTS
+    f'{{"weights": {text}, "release": null, "due": null, "service": "folder", "sandbox": "auto"}}'
+    for text in WEIGHTS
 ]
 
 

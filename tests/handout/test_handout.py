@@ -84,10 +84,10 @@ def scored(gradescope: Path, python: str, root: Path, *, submitted: dict[str, st
             (folder / name).write_text(text)
         submitted = folder
     root = lay_out_gradescope(root / "autograder", gradescope, submitted)
-    found = run(root / "run_autograder", root, python)
-    conforms(found, GRADESCOPE)
-    assert sum(test["max_score"] for test in found["tests"]) == pytest.approx(43)
-    return found
+    report = run(root / "run_autograder", root, python)
+    conforms(report, GRADESCOPE)
+    assert sum(test["max_score"] for test in report["tests"]) == pytest.approx(43)
+    return report
 
 
 def test_the_zip_has_what_gradescope_asks_for_at_its_root(gradescope):
@@ -112,53 +112,54 @@ def test_the_zip_has_what_gradescope_asks_for_at_its_root(gradescope):
 def test_gradescope_gives_the_samples_what_they_deserve(
     gradescope, bare, tmp_path, *, sample, score
 ):
-    found = scored(gradescope, bare, tmp_path, submitted=gradescope / "teacher" / sample)
-    assert found["score"] == pytest.approx(score)
-    hidden = [test for test in found["tests"] if test["visibility"] == "after_due_date"]
+    report = scored(gradescope, bare, tmp_path, submitted=gradescope / "teacher" / sample)
+    assert report["score"] == pytest.approx(score)
+    hidden = [test for test in report["tests"] if test["visibility"] == "after_due_date"]
     checks = [c for n in ("invert_rigid", "iterations_needed") for c in exercises()[n].checks]
     assert len(hidden) == (sum(not c.public for c in checks) if sample == "full" else 0)
     if (
         sample == "none"
     ):  # that a function is not written yet is said once, and not by each of its checks
-        assert [test["name"] for test in found["tests"]] == ["invert_rigid", "iterations_needed"]
+        assert [test["name"] for test in report["tests"]] == ["invert_rigid", "iterations_needed"]
         assert all(
-            test["output"].endswith(f"{test['name']} is not written yet") for test in found["tests"]
+            test["output"].endswith(f"{test['name']} is not written yet")
+            for test in report["tests"]
         )
 
 
 def test_gradescope_says_once_what_was_not_handed_in(gradescope, bare, tmp_path):
     right = (gradescope / "teacher" / "full" / "my_invert_rigid.py").read_text()
-    found = scored(
+    report = scored(
         gradescope,
         bare,
         tmp_path,
         submitted={"my_invert_rigid.py": right, "notes.py": "x = 1", "b.txt": "x"},
     )
-    assert json.dumps(found).count("iterations_needed: not handed in") == 1
-    assert found["output"].splitlines() == [
+    assert json.dumps(report).count("iterations_needed: not handed in") == 1
+    assert report["output"].splitlines() == [
         "iterations_needed: not handed in",
         "notes.py: defines no function invert_rigid or iterations_needed",
         "not read, since neither .py nor .ipynb: b.txt",
     ]
-    missing = [test for test in found["tests"] if test["name"] == "iterations_needed"]
+    missing = [test for test in report["tests"] if test["name"] == "iterations_needed"]
     assert [test["score"] for test in missing] == [0]
     assert (
-        found["score"]
-        == sum(test["max_score"] for test in found["tests"]) - missing[0]["max_score"]
+        report["score"]
+        == sum(test["max_score"] for test in report["tests"]) - missing[0]["max_score"]
     )
 
 
 def test_gradescope_takes_a_file_of_any_name_and_says_what_is_missing(gradescope, bare, tmp_path):
-    found = scored(gradescope, bare, tmp_path, submitted={"Homework 3 (final).PY": WRONG})
-    assert 0 <= found["score"] < 30
-    assert "seen (4, 4)" in found["output"]
+    report = scored(gradescope, bare, tmp_path, submitted={"Homework 3 (final).PY": WRONG})
+    assert 0 <= report["score"] < 30
+    assert "seen (4, 4)" in report["output"]
     assert any(
-        "iterations_needed" in test["name"] and test["score"] == 0 for test in found["tests"]
+        "iterations_needed" in test["name"] and test["score"] == 0 for test in report["tests"]
     )
 
 
 @pytest.mark.parametrize(
-    ("submitted", "said"),
+    ("submitted", "message"),
     [
         ({"a.py": "def invert_rigid(T:\n"}, "a.py, line 1"),
         ({"a.py": "import os\nos._exit(0)\ndef invert_rigid(T): return T\n"}, "its process ended"),
@@ -167,11 +168,11 @@ def test_gradescope_takes_a_file_of_any_name_and_says_what_is_missing(gradescope
     ],
 )
 def test_gradescope_has_results_for_what_cannot_be_graded(
-    gradescope, bare, tmp_path, *, submitted, said
+    gradescope, bare, tmp_path, *, submitted, message
 ):
-    found = scored(gradescope, bare, tmp_path, submitted=submitted)
-    assert found["score"] == 0
-    assert said in found["output"]
+    report = scored(gradescope, bare, tmp_path, submitted=submitted)
+    assert report["score"] == 0
+    assert message in report["output"]
 
 
 def test_gradescope_has_results_where_the_grader_is_ended(gradescope, bare, tmp_path):
@@ -191,10 +192,10 @@ def test_gradescope_has_results_where_the_grader_is_ended(gradescope, bare, tmp_
         time.sleep(0.02)
     os.killpg(running.pid, signal.SIGKILL)
     running.wait()
-    found = json.loads(results.read_text())
-    conforms(found, GRADESCOPE)
-    assert found["score"] == 0
-    assert "ran out of time" in found["output"]
+    report = json.loads(results.read_text())
+    conforms(report, GRADESCOPE)
+    assert report["score"] == 0
+    assert "ran out of time" in report["output"]
 
 
 @pytest.mark.parametrize("broken", ["no Python", "no packages", "no sandbox"])
@@ -209,11 +210,13 @@ def test_gradescope_has_results_where_the_grader_breaks(gradescope, bare, tmp_pa
         )
         walls = root / "source" / "packages" / "workbench" / "exercise" / "sandbox" / "isolation.py"
         walls.write_text(walls.read_text() + "\ndef _tried(wall): return 'not in this container'\n")
-    found = run(root / "run_autograder", root, "/nowhere/python" if broken == "no Python" else bare)
-    conforms(found, GRADESCOPE)
-    assert found["score"] == 0
-    assert "not about your code" in found["output"]
-    assert ("not in this container" in found["output"]) == (broken == "no sandbox")
+    report = run(
+        root / "run_autograder", root, "/nowhere/python" if broken == "no Python" else bare
+    )
+    conforms(report, GRADESCOPE)
+    assert report["score"] == 0
+    assert "not about your code" in report["output"]
+    assert ("not in this container" in report["output"]) == (broken == "no sandbox")
 
 
 THIEF = """
@@ -242,9 +245,9 @@ def test_in_a_container_another_user_is_a_wall(tmp_path):
     text = THIEF.format(root=str(tmp_path / "autograder"), pid=os.getpid())
     (tmp_path / "in" / "a.py").write_text(text)
     root = lay_out_gradescope(tmp_path / "autograder", tmp_path / "out", tmp_path / "in")
-    found = run(root / "run_autograder", root)
-    assert "GOT []" in found["output"]
-    assert "not safe" not in found["output"]
+    report = run(root / "run_autograder", root)
+    assert "GOT []" in report["output"]
+    assert "not safe" not in report["output"]
 
 
 def test_the_image_is_set_up_with_a_python_that_is_new_enough(gradescope, tmp_path):
@@ -291,10 +294,10 @@ def submitted(
     """
     (folder / "mine.py").write_text(text)
     root = lay_out_prairielearn(folder / "grade", prairielearn, exercise, file=folder / "mine.py")
-    found = run(root / "serverFilesCourse" / "geometry-workbench" / "run.sh", root, python)
-    conforms(found, PRAIRIELEARN)
+    report = run(root / "serverFilesCourse" / "geometry-workbench" / "run.sh", root, python)
+    conforms(report, PRAIRIELEARN)
     assert (root / "results" / "results.json").stat().st_size < 1_000_000
-    return found
+    return report
 
 
 def test_a_question_is_what_prairielearn_documents(prairielearn):
@@ -325,43 +328,43 @@ def test_a_question_is_what_prairielearn_documents(prairielearn):
 def test_prairielearn_gives_the_samples_what_they_deserve(
     prairielearn, bare, tmp_path, *, sample, score
 ):
-    found = submitted(
+    report = submitted(
         prairielearn,
         bare,
         tmp_path,
         text=(prairielearn / "teacher" / sample / "my_invert_rigid.py").read_text(),
     )
-    assert found["score"] == score
-    assert found["gradable"] is True
+    assert report["score"] == score
+    assert report["gradable"] is True
 
 
 def test_prairielearn_shows_the_failing_case_and_nothing_of_hidden_checks(
     prairielearn, bare, tmp_path
 ):
-    found = submitted(prairielearn, bare, tmp_path, text=WRONG)
-    assert 0 <= found["score"] < 1
-    assert "seen (4, 4)" in found["output"]
-    (image,) = found["images"]
+    report = submitted(prairielearn, bare, tmp_path, text=WRONG)
+    assert 0 <= report["score"] < 1
+    assert "seen (4, 4)" in report["output"]
+    (image,) = report["images"]
     picture = Image.open(io.BytesIO(base64.b64decode(image["url"].partition(",")[2])))
     assert picture.size == (640, 400)
     assert len(picture.getcolors(1 << 20) or []) > 10  # something is drawn
     assert "Step " in image["label"]
     hidden = [check.promise for check in exercises()["invert_rigid"].checks if not check.public]
-    assert not [promise for promise in hidden if promise in json.dumps(found)]
-    assert found["tests"][-1]["name"] == "Hidden checks"
+    assert not [promise for promise in hidden if promise in json.dumps(report)]
+    assert report["tests"][-1]["name"] == "Hidden checks"
 
 
 def test_prairielearn_takes_no_attempt_for_what_cannot_be_graded(prairielearn, bare, tmp_path):
-    found = submitted(prairielearn, bare, tmp_path, text="def invert_rigid(T:\n")
-    assert found["gradable"] is False
-    assert "line 1" in found["format_errors"][0]
+    report = submitted(prairielearn, bare, tmp_path, text="def invert_rigid(T:\n")
+    assert report["gradable"] is False
+    assert "line 1" in report["format_errors"][0]
 
 
 # the command --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (["out"], "which exercises?"),
         ([], "EXERCISE ... OUT is missing"),
@@ -379,13 +382,13 @@ def test_prairielearn_takes_no_attempt_for_what_cannot_be_graded(prairielearn, b
         (["match", "full/file"], "is no folder"),
     ],
 )
-def test_what_cannot_be_handed_out_is_one_line(tmp_path, monkeypatch, capsys, *, words, said):
+def test_what_cannot_be_handed_out_is_one_line(tmp_path, monkeypatch, capsys, *, words, message):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "file").write_text("mine")
     assert main(["handout", *words, *([] if "--for" in words else ["--for", "folder"])]) == 2
     error = capsys.readouterr().err
-    assert said in error
+    assert message in error
     assert error.count("\n") == 1
     assert sorted(path.name for path in tmp_path.iterdir()) == ["full"]
 
@@ -410,9 +413,9 @@ runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
 
 
 def test_what_grading_needs_is_written_down_once():
-    said = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())
-    group = said["dependency-groups"]["grade"]
-    assert set(group) <= set(said["project"]["dependencies"])
+    pyproject = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())
+    group = pyproject["dependency-groups"]["grade"]
+    assert set(group) <= set(pyproject["project"]["dependencies"])
     assert [line.partition(">")[0] for line in group] == [*NEEDED, CARRIED[0]]
 
 

@@ -18,9 +18,9 @@ def timeline(params: Input) -> Timeline:
 
 def states(params: Input) -> list[State]:
     """Return the steps of the flows, each beside its clouds."""
-    found = timeline(params).states()
-    clouds = as_a(Clouds, found.subject)
-    return [beside_its_clouds(params, clouds, step) for step in found]
+    steps = timeline(params).states()
+    clouds = as_a(Clouds, steps.subject)
+    return [beside_its_clouds(params, clouds, step) for step in steps]
 
 
 def flows(params: Input, **slots: Any) -> list[State]:

@@ -36,25 +36,25 @@ def of_stage(states: Sequence[State], stage: Stage) -> State:
     return [state for state in states if state.stage is stage][-1]
 
 
-def truth_of(found: Maps) -> np.ndarray:
-    assert found.subject.pair.disparity is not None
-    return found.subject.pair.disparity
+def truth_of(maps: Maps) -> np.ndarray:
+    assert maps.subject.pair.disparity is not None
+    return maps.subject.pair.disparity
 
 
-def visible_in(found: Maps) -> np.ndarray:
-    assert found.subject.pair.visible is not None
-    return found.subject.pair.visible
+def visible_in(maps: Maps) -> np.ndarray:
+    assert maps.subject.pair.visible is not None
+    return maps.subject.pair.visible
 
 
-def chosen_of(found: Maps, step: int) -> float:
+def chosen_of(maps: Maps, step: int) -> float:
     """The disparity of the followed pixel."""
-    u, v = found.subject.pixel
-    return float(found[step].disparity[v, u])
+    u, v = maps.subject.pixel
+    return float(maps[step].disparity[v, u])
 
 
-def off_in(found: Maps, state: State, part: tuple[slice, slice]) -> float:
+def off_in(maps: Maps, state: State, part: tuple[slice, slice]) -> float:
     """Return the share of a part of the map that is over 1 px off."""
-    return float((np.abs(state.disparity - truth_of(found)) > 1.0)[part].mean())
+    return float((np.abs(state.disparity - truth_of(maps)) > 1.0)[part].mean())
 
 
 BARE_PART = (slice(30, 90), slice(46, 88))

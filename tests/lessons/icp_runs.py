@@ -90,12 +90,12 @@ def states(params: Input) -> tuple[Seen, ...]:
 @cache
 def until_stop(params: Input) -> tuple[Seen, ...]:
     """Return the steps of ICP itself; the tries afterwards take most of a run's time."""
-    found = []
+    steps = []
     for state in seen(params):
-        found.append(state)
+        steps.append(state)
         if state.icp.stop:
             break
-    return tuple(found)
+    return tuple(steps)
 
 
 def end(steps: Any) -> Seen:

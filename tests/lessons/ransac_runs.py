@@ -63,4 +63,4 @@ def drawn(states, k: int) -> Scene:
 
 
 def rivals(states):
-    return {name: states.subject.error(one) for name, one in states.subject.rivals.items()}
+    return {name: states.subject.error(rival) for name, rival in states.subject.rivals.items()}

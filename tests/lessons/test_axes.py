@@ -133,11 +133,11 @@ class TestAxes:
 
     def test_nearly_equal_sides_leave_the_axes_to_noise(self):
         def median(side: float) -> float:
-            found = [
+            angles = [
                 turns_of(Input(shape="box", fresh=True, side=side, seed=seed)).axes[:, 0]
                 for seed in range(3)
             ]
-            return float(np.median(np.concatenate(found)))
+            return float(np.median(np.concatenate(angles)))
 
         at = {side: median(side) for side in (0.6, 0.9, 0.99, 1.0)}
         assert at[0.6] < 3 < at[0.9] < 12 < 25 < at[0.99]
@@ -146,12 +146,12 @@ class TestAxes:
 
     def test_the_box_of_a_cube(self):
         assert pose("cube")[1].box == pytest.approx(3.68, abs=0.05)
-        found = []
+        volumes = []
         for seed in range(100):
             p = box_surface(1500, (1.0, 1.0, 1.0), np.random.default_rng(seed))
-            found.append(np.prod(np.ptp(p @ principal_axes(p), axis=0)))
-        assert 3.2 < np.median(found) < 3.9
-        assert max(found) < 3 * np.sqrt(3)  # a cube in its most unlucky box
+            volumes.append(np.prod(np.ptp(p @ principal_axes(p), axis=0)))
+        assert 3.2 < np.median(volumes) < 3.9
+        assert max(volumes) < 3 * np.sqrt(3)  # a cube in its most unlucky box
 
     def test_density_moves_the_axes_of_a_rabbit_that_stays(self):
         outcome = pose("density")[0]
@@ -191,9 +191,9 @@ class TestFlat:
         assert np.sqrt(w) == pytest.approx([0.243, 0.331], abs=1e-3)
 
     def test_the_question_stands_at_the_longest_and_the_shortest_shadow(self):
-        outline, found = subject("shadow"), preset("shadow")
-        assert found[24].direction == round(outline.longest)
-        assert found[54].direction == round(outline.longest) + 90
+        outline, steps = subject("shadow"), preset("shadow")
+        assert steps[24].direction == round(outline.longest)
+        assert steps[54].direction == round(outline.longest) + 90
 
     def test_a_positive_direction_is_counterclockwise_for_the_eye(self):
         params, view = lesson.preset("shadow").params, lesson.preset("shadow").view
@@ -231,10 +231,10 @@ class TestFrames:
         assert at == pytest.approx(np.degrees(states(HOME)[3].jacobi.angle), abs=0.05)
 
     def test_four_frames_half_turns_apart(self):
-        found = preset("frames")[-1].frames
-        gaps = sorted(one.gap for one in found)
+        frames = preset("frames")[-1].frames
+        gaps = sorted(frame.gap for frame in frames)
         np.testing.assert_allclose(gaps, [0, 0.067, 0.083, 0.096], atol=5e-4)
-        off = sorted(one.rotation for one in found)
+        off = sorted(frame.rotation for frame in frames)
         np.testing.assert_allclose(off, [0, 180, 180, 180], atol=1e-6)
 
     @pytest.mark.parametrize(
@@ -242,7 +242,7 @@ class TestFrames:
     )
     def test_the_lit_frame_is_the_one_that_the_rule_chooses(self, signs, lit):
         params = replace(HOME, signs=signs)
-        state = next(one for one in states(params) if one.moment == "signs")
+        state = next(step for step in states(params) if step.moment == "signs")
         assert state.frames[state.frame - 1].rotation == pytest.approx(lit, abs=1e-6)
         shown = scene(params, 12)
         bright = [k for k in range(1, 5) if shown[f"four/{k}/source"].opacity == 1.0]
@@ -339,7 +339,7 @@ class TestPicture:
     def test_a_moving_scan_is_a_pose_and_the_same_arrays_stay(self):
         shown = [scene(HOME, k) for k in range(len(states(HOME)))]
         for name in ("target", "source"):
-            assert len({id(one[name].p) for one in shown if name in one}) == 1
+            assert len({id(drawn[name].p) for drawn in shown if name in drawn}) == 1
         assert scene(replace(HOME, signs="none"), 0)["source"].p is shown[0]["source"].p
         T = shown[-1]["source"].T_world_object
         p = shown[-1]["source"].p @ T[:3, :3].T + T[:3, 3]
@@ -383,8 +383,8 @@ class TestPicture:
     def test_what_is_left_is_a_ratio_of_norms(self):
         C = np.cov(scans_of(HOME).p_source.T, bias=True)
         left = np.linalg.norm(C - np.diag(np.diag(C))) / np.linalg.norm(C)
-        said = finished(lesson.name, HOME)[2].caption
-        assert said.values["left"] == pytest.approx(left)
+        shown_caption = finished(lesson.name, HOME)[2].caption
+        assert shown_caption.values["left"] == pytest.approx(left)
         assert (round(100 * left), round(100 * left**2)) == (31, 10)
         assert "nothing but rounding" in caption(HOME, 10)
 

@@ -44,12 +44,12 @@ def shape() -> np.ndarray:
 @pytest.mark.parametrize("place", [0.0, 5e5])
 def test_one_cloud_takes_the_place_of_the_rabbit_in_any_unit_and_place(tmp_path, shape, place):
     params = Input(**saved(tmp_path, source=1000.0 * shape + place))
-    found = steps(params)
+    states = steps(params)
     p = scans_of(params).p_target
     assert np.ptp(p, axis=0).max() == pytest.approx(1.0, abs=0.15)
     assert np.abs(p.max(axis=0) + p.min(axis=0)).max() < 0.2
-    assert found[-2].outcome.home
-    assert found[-1].turns.home.all()
+    assert states[-2].outcome.home
+    assert states[-1].turns.home.all()
     assert "source.npy" in text_of(params, 0)
     assert {"shape", "side"} <= set(Timeline(lesson, params).complete().idle())
 
@@ -63,21 +63,21 @@ def test_it_stands_upright(tmp_path, shape, up, *, axis):
 
 def test_what_goes_wrong_goes_wrong_with_an_own_cloud_too(tmp_path, shape):
     params = Input(**saved(tmp_path, source=shape), density=3, seen=0.7, noise=0.01, fresh=True)
-    found = steps(params)
-    assert found[-2].outcome.rotation > 5
-    assert np.isfinite(found[-2].outcome.gap)
+    states = steps(params)
+    assert states[-2].outcome.rotation > 5
+    assert np.isfinite(states[-2].outcome.gap)
 
 
 def test_two_clouds_go_by_axes_and_nobody_knows_the_truth(tmp_path, shape):
     T = motion(R, np.array([0.2, 3.0, -1.0]))
     files = saved(tmp_path, target=shape @ R.T + T[:3, 3], source=shape[:700])
     params = Input(**files)
-    found = steps(params)
+    states = steps(params)
     text = text_of(params, -1)
-    assert found[-1].moment == "pose"
+    assert states[-1].moment == "pose"
     assert "Nobody knows the truth" in text
-    said = metres(text.split("Frame on frame: ")[1].split(" (RMS)")[0])
-    assert said == pytest.approx(to_nearest(scans_of(params), found[-1]), rel=0.01)
+    distance = metres(text.split("Frame on frame: ")[1].split(" (RMS)")[0])
+    assert distance == pytest.approx(to_nearest(scans_of(params), states[-1]), rel=0.01)
     assert {"turn", "noise", "shape"} <= set(Timeline(lesson, params).complete().idle())
 
 
@@ -86,9 +86,9 @@ def test_a_known_pose_is_the_truth(tmp_path, shape, up):
     T = motion(R, np.array([0.2, 3.0, -1.0]))
     np.savetxt(tmp_path / "pose.txt", T)
     files = saved(tmp_path, target=shape @ R.T + T[:3, 3], source=shape)
-    found = steps(Input(**files, truth=tmp_path / "pose.txt", up=up))
-    assert found[-2].moment == "pose"
-    assert found[-2].outcome.rotation < 1e-3
+    states = steps(Input(**files, truth=tmp_path / "pose.txt", up=up))
+    assert states[-2].moment == "pose"
+    assert states[-2].outcome.rotation < 1e-3
 
 
 def test_what_cannot_be_used_is_refused_in_one_line(tmp_path, shape):
@@ -116,8 +116,8 @@ def test_a_file_that_changed_is_read_anew(tmp_path, shape):
 def test_real_scans_by_axes_are_not_where_they_belong(shared_data):
     folder = shared_data / "icp"
     files: dict[str, Any] = {"source": folder / "bun045.ply", "target": folder / "bun000.ply"}
-    found = steps(Input(**files, truth=folder / "bun.conf", up="y", points=5000))
-    state = next(state for state in found if state.moment == "pose")
+    states = steps(Input(**files, truth=folder / "bun.conf", up="y", points=5000))
+    state = next(state for state in states if state.moment == "pose")
     assert state.outcome.rotation > 5  # each saw another part
     T = read_pose(folder / "bun.conf", files["target"], files["source"])
     scale = 1 / np.ptp(read_cloud(files["target"]), axis=0).max()
@@ -132,8 +132,8 @@ def test_real_scans_by_axes_are_not_where_they_belong(shared_data):
 def test_real_shapes_keep_their_frame_under_a_turn(shared_data, tmp_path, name):
     path = shared_data / name
     p = read_mesh(path)[0]
-    found = steps(Input(**saved(tmp_path, source=p), points=3000, up="y"))
-    assert found[-2].outcome.rotation < 1e-3
+    states = steps(Input(**saved(tmp_path, source=p), points=3000, up="y"))
+    assert states[-2].outcome.rotation < 1e-3
     signs = steps(Input(**saved(tmp_path, source=p), points=3000, up="y", signs="largest-entry"))[
         -1
     ].turns

@@ -41,11 +41,11 @@ def sd_of(params: Params) -> float:
 
 
 def ending(params: Params, kind: str) -> tuple[State, Ending]:
-    found = next(
+    ended = next(
         state for state in states(params) if state.ending is not None and state.ending.kind == kind
     )
-    assert found.ending is not None
-    return found, found.ending
+    assert ended.ending is not None
+    return ended, ended.ending
 
 
 # presets ------------------------------------------------------------------------------------------
@@ -103,9 +103,9 @@ def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
     """
     cv2 = pytest.importorskip("cv2", reason="opencv-python-headless is not installed")
     last = end(presets.FLAT)
-    found = last.now.adjustment
-    assert found is not None
-    assert found.stop is Stop.CONVERGED
+    adjustment = last.now.adjustment
+    assert adjustment is not None
+    assert adjustment.stop is Stop.CONVERGED
     assert f_of(last) == pytest.approx(493.26, abs=0.05)
     assert last.rms == pytest.approx(0.27804, abs=1e-5)
     p = np.column_stack([last.subject.p_board[:, :2], np.zeros(len(last.subject.p_board))]).astype(
@@ -126,11 +126,11 @@ def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
 
 def test_of_a_long_refinement_every_tenth_iteration_is_shown_and_the_last():
     shown = [
-        one.now.adjustment
-        for one in states(presets.FLAT)
-        if one.now.phase == "refine" and one.ending is None
+        state.now.adjustment
+        for state in states(presets.FLAT)
+        if state.now.phase == "refine" and state.ending is None
     ]
-    numbers = [one.iteration for one in shown if one is not None]
+    numbers = [adjustment.iteration for adjustment in shown if adjustment is not None]
     assert numbers[:31] == [*range(1, 31), 40]
     assert all(number % 10 == 0 for number in numbers[30:-1])
     assert shown[-1] is not None
@@ -153,11 +153,11 @@ def test_a_refinement_that_its_limit_ended_says_so_to_the_end():
 def test_f_over_the_tilt(tilt, median, sd):
     """The rms says nothing of it: medians over seeds."""
     ends = [list(run(Params(tilt=float(tilt), seed=seed)))[-1] for seed in range(5)]
-    assert np.median([abs(f_of(one) - 536) for one in ends]) == pytest.approx(median, rel=0.6)
-    assert np.median([sure(one.now.adjustment).deviations[0] for one in ends]) == pytest.approx(
+    assert np.median([abs(f_of(state) - 536) for state in ends]) == pytest.approx(median, rel=0.6)
+    assert np.median([sure(state.now.adjustment).deviations[0] for state in ends]) == pytest.approx(
         sd, rel=0.3
     )
-    assert np.median([one.rms for one in ends]) == pytest.approx(0.275, abs=0.006)
+    assert np.median([state.rms for state in ends]) == pytest.approx(0.275, abs=0.006)
 
 
 def test_the_curve_over_the_tilt_is_what_runs_at_those_tilts_promise():
@@ -247,24 +247,24 @@ def captions(**slots) -> list[Caption]:
 
 
 def test_rows_drive_the_closed_form():
-    said = captions(constraint_rows=lambda H: calibration.constraint_rows(H.T))
-    assert any("no camera sees such views" in caption.text for caption in said[:10])
-    assert "f is guessed as the picture's width" in said[presets.POSES].text
+    shown_captions = captions(constraint_rows=lambda H: calibration.constraint_rows(H.T))
+    assert any("no camera sees such views" in caption.text for caption in shown_captions[:10])
+    assert "f is guessed as the picture's width" in shown_captions[presets.POSES].text
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         (lambda T: np.diag([1, 1, -1, 1]) @ T, "stand behind the camera"),
         (lambda T: T @ np.diag([1.01, 1, 1, 1]), "an R that is not orthonormal"),
         (lambda T: T @ np.diag([1.0, 1, -1, 1]), "8 boards are mirror images"),
     ],
 )
-def test_poses_that_are_none_are_told(change, said):
+def test_poses_that_are_none_are_told(change, message):
     told = captions(
         pose_from_homography=lambda K, H: change(calibration.pose_from_homography(K, H))
     )
-    assert said in told[presets.POSES].text
+    assert message in told[presets.POSES].text
     assert told[presets.POSES].tone == "wrong"
 
 

@@ -272,12 +272,12 @@ def test_what_is_refused(corners, tmp_path, shared_data):
     np.savez(tmp_path / "one.npz", board=board_points(), uv=np.load(corners)["left"][:1])
     np.savez(tmp_path / "none.npz", nothing=np.zeros(3))
     (tmp_path / "empty.csv").write_text("")
-    for path, said in (
+    for path, message in (
         (tmp_path / "one.npz", "1 views"),
         (tmp_path / "none.npz", "no arrays"),
         (tmp_path / "empty.csv", "no lines"),
         (shared_data / "calibration" / "left01.jpg", "text files"),
         (tmp_path, "folder"),
     ):
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             list(run(Params(corners=path)))

@@ -25,14 +25,14 @@ from workbench.scene import Curve, Scalar, Table
 
 def flips(state: State) -> bool:
     """Whether Chamfer and earth mover's rank the cloud and the target 5 % larger differently."""
-    now, larger = state.left.numbers, state.yardsticks["5 % larger"]
-    return (now.chamfer < larger.chamfer) != (now.earth_movers < larger.earth_movers)
+    numbers, larger = state.left.numbers, state.yardsticks["5 % larger"]
+    return (numbers.chamfer < larger.chamfer) != (numbers.earth_movers < larger.earth_movers)
 
 
 class TestPresets:
     def test_clump(self):
-        found = preset("clump")
-        first, last = found[0], found[-1]
+        steps = preset("clump")
+        first, last = steps[0], steps[-1]
         assert squared(last.left.numbers.chamfer) == "0.0096 m²"
         assert round(80 * nearer_side(last.left)) == 72
         assert last.left.flow.stop is Stop.SETTLED
@@ -44,72 +44,72 @@ class TestPresets:
     def test_flip(self):
         first = preset("flip")[0]
         assert flips(first)
-        now, larger = first.left.numbers, first.yardsticks["5 % larger"]
-        assert (squared(now.chamfer), squared(larger.chamfer)) == ("0.0039 m²", "0.0050 m²")
-        assert (metres(now.earth_movers), metres(larger.earth_movers)) == ("0.98 m", "0.050 m")
-        assert now.hausdorff < 0.1  # a few points keep every gap short
+        numbers, larger = first.left.numbers, first.yardsticks["5 % larger"]
+        assert (squared(numbers.chamfer), squared(larger.chamfer)) == ("0.0039 m²", "0.0050 m²")
+        assert (metres(numbers.earth_movers), metres(larger.earth_movers)) == ("0.98 m", "0.050 m")
+        assert numbers.hausdorff < 0.1  # a few points keep every gap short
         assert "flips" in timeline(lesson.preset("flip").params)[0].caption.text
 
     def test_larger(self):
-        now = preset("larger")[0].left.numbers
-        assert now.chamfer == pytest.approx(2 * 0.05**2)
-        assert now.earth_movers == pytest.approx(0.05)
+        numbers = preset("larger")[0].left.numbers
+        assert numbers.chamfer == pytest.approx(2 * 0.05**2)
+        assert numbers.earth_movers == pytest.approx(0.05)
         assert not flips(preset("larger")[0])
 
     def test_bump(self):
         first = preset("bump")[0]
-        now, larger = first.left.numbers, first.yardsticks["5 % larger"]
-        assert squared(now.chamfer) == squared(larger.chamfer) == "0.0050 m²"
-        assert metres(now.earth_movers) == "0.019 m"
+        numbers, larger = first.left.numbers, first.yardsticks["5 % larger"]
+        assert squared(numbers.chamfer) == squared(larger.chamfer) == "0.0050 m²"
+        assert metres(numbers.earth_movers) == "0.019 m"
         assert "0.019" in line("bump")
-        assert now.hausdorff == pytest.approx(0.147)
+        assert numbers.hausdorff == pytest.approx(0.147)
         assert "0.147" in line("bump")
         assert larger.hausdorff == pytest.approx(0.05)
 
     def test_missing(self):
-        found = preset("missing")
-        now, last = found[0].left.numbers, found[-1].left
-        assert now.to_target == 0.0
-        assert squared(now.to_source) == "0.39 m²"
+        steps = preset("missing")
+        numbers, last = steps[0].left.numbers, steps[-1].left
+        assert numbers.to_target == 0.0
+        assert squared(numbers.to_source) == "0.39 m²"
         assert last.numbers.to_source < 0.01  # lowering both sides fills the missing part
         assert last.flow.p_moving[:, 0].max() > 0.9
         assert (
-            found[-1].right.numbers.earth_movers < 0.01 < 0.6 < found[0].right.numbers.earth_movers
+            steps[-1].right.numbers.earth_movers < 0.01 < 0.6 < steps[0].right.numbers.earth_movers
         )
 
     def test_one_way_from_the_source_sees_nothing_missing(self):
-        found = states(ONE_WAY)
-        assert found[0].left.flow.stop is Stop.ARRIVED
-        assert np.array_equal(found[-1].left.flow.p_moving, found[0].left.flow.p_moving)
+        steps = states(ONE_WAY)
+        assert steps[0].left.flow.stop is Stop.ARRIVED
+        assert np.array_equal(steps[-1].left.flow.p_moving, steps[0].left.flow.p_moving)
 
     def test_outlier(self):
         first = preset("outlier")[0]
-        now, larger = first.left.numbers, first.yardsticks["5 % larger"]
-        assert now.hausdorff == pytest.approx(20 * larger.hausdorff) == pytest.approx(1.0)
-        assert now.chamfer / larger.chamfer == pytest.approx(2.5, abs=0.05)
-        assert now.earth_movers / larger.earth_movers == pytest.approx(0.25)
-        assert now.earth_movers == pytest.approx(0.0125)
-        assert round(100 * now.f_score) == 99
+        numbers, larger = first.left.numbers, first.yardsticks["5 % larger"]
+        assert numbers.hausdorff == pytest.approx(20 * larger.hausdorff) == pytest.approx(1.0)
+        assert numbers.chamfer / larger.chamfer == pytest.approx(2.5, abs=0.05)
+        assert numbers.earth_movers / larger.earth_movers == pytest.approx(0.25)
+        assert numbers.earth_movers == pytest.approx(0.0125)
+        assert round(100 * numbers.f_score) == 99
 
     def test_shuffled(self):
-        now = preset("shuffled")[0].left.numbers
+        numbers = preset("shuffled")[0].left.numbers
         assert (
-            now.chamfer
-            == now.earth_movers
-            == now.hausdorff
-            == now.to_target
-            == now.to_source
+            numbers.chamfer
+            == numbers.earth_movers
+            == numbers.hausdorff
+            == numbers.to_target
+            == numbers.to_source
             == 0.0
         )
-        assert all(value == 0.0 for value in now.definitions.values())
-        assert squared(now.index_mse) == "2.3 m²"
+        assert all(value == 0.0 for value in numbers.definitions.values())
+        assert squared(numbers.index_mse) == "2.3 m²"
         assert len(preset("shuffled")) == 1
 
     def test_doubled(self):
-        now = preset("doubled")[0].left.numbers
-        assert now.chamfer == now.hausdorff == 0.0
-        assert metres(now.earth_movers) == "0.21 m"
-        assert np.isnan(now.index_mse)
+        numbers = preset("doubled")[0].left.numbers
+        assert numbers.chamfer == numbers.hausdorff == 0.0
+        assert metres(numbers.earth_movers) == "0.21 m"
+        assert np.isnan(numbers.index_mse)
 
     def test_idle(self):
         last = preset("idle")[-1].left
@@ -127,14 +127,14 @@ class TestPresets:
         assert round(last.numbers.earth_movers, 3) == 0.004
 
     def test_unequal(self):
-        found = preset("unequal")
-        last = found[-1].right
+        steps = preset("unequal")
+        last = steps[-1].right
         assert len(last.flow.p_moving) == 40
         assert np.all(np.bincount(last.matching.i_a) == 2)
         assert np.allclose(last.matching.mass, 1 / 80)
         assert np.median(last.matching.distances) == pytest.approx(0.039, abs=1e-3)
         assert last.matching.distances.max() < 0.05
-        D = scipy.spatial.distance.cdist(last.flow.p_moving, found[-1].clouds.p_target)
+        D = scipy.spatial.distance.cdist(last.flow.p_moving, steps[-1].clouds.p_target)
         assert 80 - len(scipy.optimize.linear_sum_assignment(D)[1]) == 40  # target points left out
 
     def test_sphere(self):
@@ -148,15 +148,15 @@ class TestPage:
     """What page.md says."""
 
     def test_one_point_is_the_nearest_of_fifteen(self):
-        found = preset("clump")
-        assert max(s.left.served.max() for s in found) == 15
-        assert found[0].left.served.max() == 12
-        assert all(len(np.unique(s.right.matching.i_b)) == 80 for s in found)
+        steps = preset("clump")
+        assert max(s.left.served.max() for s in steps) == 15
+        assert steps[0].left.served.max() == 12
+        assert all(len(np.unique(s.right.matching.i_b)) == 80 for s in steps)
 
     def test_a_hundredfold_and_half_out_of_place(self):
-        found = preset("clump")
-        assert 100 < found[0].left.numbers.chamfer / found[-1].left.numbers.chamfer < 120
-        assert found[-1].left.numbers.out_of_place == pytest.approx(0.5, abs=0.05)
+        steps = preset("clump")
+        assert 100 < steps[0].left.numbers.chamfer / steps[-1].left.numbers.chamfer < 120
+        assert steps[-1].left.numbers.out_of_place == pytest.approx(0.5, abs=0.05)
 
     def test_one_pair_of_clouds_has_four_chamfers(self):
         definitions = preset("clump")[-1].left.numbers.definitions
@@ -165,12 +165,12 @@ class TestPage:
         assert all(number in lesson.text() for number in shown)
 
     def test_no_metric(self):
-        zero, pair, one = (
+        zero, pair, unit = (
             np.zeros((1, 3)),
             np.array([[0.0, 0, 0], [1, 0, 0]]),
             np.array([[1.0, 0, 0]]),
         )
-        assert chamfer(zero, pair) + chamfer(pair, one) < chamfer(zero, one)
+        assert chamfer(zero, pair) + chamfer(pair, unit) < chamfer(zero, unit)
 
     def test_the_limit_of_places_is_the_default(self):
         assert Input().near == 0.1
@@ -189,9 +189,9 @@ class TestPage:
 )
 def test_questions_have_the_answer_that_the_run_gives(name, right):
     question = next(q for q in QUESTIONS if q.name == name)
-    found = timeline(question.params).states()
-    assert question.answer(found) == right
-    assert any(character.isdigit() for character in question.why(found))
+    steps = timeline(question.params).states()
+    assert question.answer(steps) == right
+    assert any(character.isdigit() for character in question.why(steps))
 
 
 def test_no_number_is_right_when_nothing_was_typed():
@@ -203,22 +203,22 @@ def test_no_number_is_right_when_nothing_was_typed():
 class TestRun:
     def test_both_flows_lower_their_own_distance(self):
         for name in ("clump", "idle", "unequal", "sphere"):
-            found = preset(name)
-            assert np.all(np.diff([s.left.flow.value for s in found]) <= 0)
-            assert np.all(np.diff([s.right.flow.value for s in found]) <= 0)
+            steps = preset(name)
+            assert np.all(np.diff([s.left.flow.value for s in steps]) <= 0)
+            assert np.all(np.diff([s.right.flow.value for s in steps]) <= 0)
 
     def test_the_flow_that_ended_waits(self):
-        found = preset("doubled")
-        ended = [s for s in found if s.left.flow.stop and s.left.flow.step < s.step]
+        steps = preset("doubled")
+        ended = [s for s in steps if s.left.flow.stop and s.left.flow.step < s.step]
         assert ended
         assert all(s.left is ended[0].left for s in ended)
-        assert [s.step for s in found] == list(range(len(found)))
-        assert [s.last for s in found] == [False] * (len(found) - 1) + [True]
+        assert [s.step for s in steps] == list(range(len(steps)))
+        assert [s.last for s in steps] == [False] * (len(steps) - 1) + [True]
 
     def test_no_steps_is_a_picture_of_the_start(self):
-        found = states(Input(steps=0))
-        assert len(found) == 1
-        assert found[0].last
+        steps = states(Input(steps=0))
+        assert len(steps) == 1
+        assert steps[0].last
 
     def test_the_code_shown_is_the_flow(self):
         moment = timeline(Input())[5].moment
@@ -238,10 +238,10 @@ class TestPicture:
         params = Input()
         state, shown = states(params)[8], scene(params, 8)
         p, p_target = state.left.flow.p_moving, state.clouds.p_target
-        there = shown["left/to target"].ends
-        assert np.array_equal(there[:, 0], p)
+        to_target = shown["left/to target"].ends
+        assert np.array_equal(to_target[:, 0], p)
         np.testing.assert_allclose(
-            np.linalg.norm(there[:, 1] - there[:, 0], axis=1),
+            np.linalg.norm(to_target[:, 1] - to_target[:, 0], axis=1),
             scipy.spatial.distance.cdist(p, p_target).min(axis=1),
         )
         back = shown["left/to source"].ends
@@ -338,9 +338,9 @@ class TestPicture:
         assert len(scene(Input(), 8)["yardsticks"].rows) == 5
 
     def test_captions_say_how_much_is_out_of_place(self):
-        caption, now = timeline(Input())[8].caption, states(Input())[8]
-        assert caption.values["left"] == now.left.numbers.out_of_place
-        assert caption.values["other"] == now.right.numbers.out_of_place
+        caption, state = timeline(Input())[8].caption, states(Input())[8]
+        assert caption.values["left"] == state.left.numbers.out_of_place
+        assert caption.values["other"] == state.right.numbers.out_of_place
         assert timeline(Input())[-1].caption.tone == "info"
         assert {timeline(preset.params)[0].caption.tone for preset in lesson.presets} == {"info"}
         assert timeline(Input(start="larger", amount=0.05))[-1].caption.tone == "good"
@@ -405,8 +405,8 @@ def test_on_every_shape_only_one_flow_spreads(shape):
 
 @pytest.mark.parametrize("count", [1, 2, 37, 200])
 def test_any_number_of_source_points(count):
-    found = flows(Input(source_points=count, points=20, steps=2))
-    assert len(found[0].left.flow.p_moving) == count
+    steps = flows(Input(source_points=count, points=20, steps=2))
+    assert len(steps[0].left.flow.p_moving) == count
 
 
 class TestByHand:
@@ -418,14 +418,14 @@ class TestByHand:
         return (D.min(axis=1) ** 2).mean() + (D.min(axis=0) ** 2).mean(), D[i, j].mean()
 
     def test_twelve_dots_on_a_heap(self):
-        found = held("twelve")
-        assert [now.heaped for now in found] == list(range(12))
-        for now in found:
-            assert (now.chamfer, now.earth_movers) == pytest.approx(self.both(now.p, ring()))
+        steps = held("twelve")
+        assert [step.heaped for step in steps] == list(range(12))
+        for step in steps:
+            assert (step.chamfer, step.earth_movers) == pytest.approx(self.both(step.p, ring()))
         # 2, 1.5, ... m: chords of the unit circle, every 30 degrees
         chords = 2 * np.sin(np.radians(15) * np.arange(1, 12))
-        assert found[-1].earth_movers == pytest.approx(chords.sum() / 12)
-        assert found[1].chamfer == pytest.approx(chords[0] ** 2 / 12)
+        assert steps[-1].earth_movers == pytest.approx(chords.sum() / 12)
+        assert steps[1].chamfer == pytest.approx(chords[0] ** 2 / 12)
 
     def test_a_dragged_dot_answers_both_rules(self):
         far = states_of(Input(stage="twelve", dot=(0.0, 1.4)))[0]
@@ -437,19 +437,19 @@ class TestByHand:
         assert inside.chamfer == pytest.approx((1 + chord**2) / 12)
 
     def test_shuffled_rows_change_the_pairs_by_row_alone(self):
-        in_order, now, *_ = states_of(ROWS)
+        in_order, shuffled, *_ = states_of(ROWS)
         assert in_order.by_row == 0.0
-        assert (now.chamfer, now.earth_movers) == (0.0, 0.0)
-        assert now.by_row == pytest.approx(np.mean(np.sum((now.p - ring()) ** 2, axis=1)))
-        assert now.by_row > 1
-        assert sorted(map(tuple, now.p)) == sorted(map(tuple, ring()))
+        assert (shuffled.chamfer, shuffled.earth_movers) == (0.0, 0.0)
+        assert shuffled.by_row == pytest.approx(np.mean(np.sum((shuffled.p - ring()) ** 2, axis=1)))
+        assert shuffled.by_row > 1
+        assert sorted(map(tuple, shuffled.p)) == sorted(map(tuple, ring()))
 
     def test_a_bunch_is_closer_by_chamfer_until_over_four_fifths(self):
-        found = held("bunch")
-        closer = {now.share: now.chamfer < now.larger_chamfer for now in found}
+        steps = held("bunch")
+        closer = {step.share: step.chamfer < step.larger_chamfer for step in steps}
         assert closer[0.8]
         assert not closer[0.85]
-        assert all(now.earth_movers > now.larger_emd for now in found if now.share >= 0.05)
+        assert all(step.earth_movers > step.larger_emd for step in steps if step.share >= 0.05)
         target = timeline(lesson.preset("bunch").params).states().subject.p_target
         by_count = {
             crowd: self.both(bunched("ring", 140, crowd / 140), target)
@@ -460,20 +460,20 @@ class TestByHand:
 
     def test_a_far_dot_rules_the_largest_distance(self):
         target = timeline(lesson.preset("far-dot").params).states().subject.p_target
-        for now in held("far-dot"):
-            of_chamfer, of_emd = self.both(now.p, target)
-            assert of_emd == pytest.approx(now.off / 80)
-            assert now.times == pytest.approx([now.off / 0.05, of_chamfer / 0.005, of_emd / 0.05])
+        for step in held("far-dot"):
+            of_chamfer, of_emd = self.both(step.p, target)
+            assert of_emd == pytest.approx(step.off / 80)
+            assert step.times == pytest.approx([step.off / 0.05, of_chamfer / 0.005, of_emd / 0.05])
         assert held("far-dot")[10].times[1] == pytest.approx(2.5, abs=0.05)
 
     def test_blur_is_never_below_the_exact_distance(self):
-        found = held("blur")
+        steps = held("blur")
         pairs = timeline(lesson.preset("blur").params).states().subject
-        for now in found:
-            assert (now.costs >= pairs.exact - 1e-4).all()
-            for plan in now.plans:
+        for step in steps:
+            assert (step.costs >= pairs.exact - 1e-4).all()
+            for plan in step.plans:
                 assert plan.sum(axis=0) == pytest.approx(np.ones(80), abs=1e-9)
-        assert np.all(np.diff([now.costs[1] for now in found]) > 0)
+        assert np.all(np.diff([step.costs[1] for step in steps]) > 0)
         assert pairs.exact == pytest.approx([0.815, 0.00437], abs=1e-4 * 5)
 
     @pytest.mark.parametrize("stage", ["twelve", "bunch", "far-dot"])

@@ -30,19 +30,25 @@ class TestSlots:
         ours = flows(params)
         theirs = flows(params, **slots)
         assert len(ours) == len(theirs)
-        for one, two in zip(ours, theirs, strict=True):
-            np.testing.assert_allclose(two.left.flow.p_moving, one.left.flow.p_moving, atol=1e-9)
-            np.testing.assert_allclose(two.right.flow.p_moving, one.right.flow.p_moving, atol=1e-9)
+        for expected, two in zip(ours, theirs, strict=True):
+            np.testing.assert_allclose(
+                two.left.flow.p_moving, expected.left.flow.p_moving, atol=1e-9
+            )
+            np.testing.assert_allclose(
+                two.right.flow.p_moving, expected.right.flow.p_moving, atol=1e-9
+            )
             assert two.right.numbers.earth_movers == pytest.approx(
-                one.right.numbers.earth_movers, rel=1e-9
+                expected.right.numbers.earth_movers, rel=1e-9
             )
 
     def test_a_wrong_chamfer_leads_the_left_flow_elsewhere(self):
         params = Input(points=20, steps=6)
         wrong = flows(params, chamfer=brute_one_sided)
         as_one_sided = flows(replace(params, lowers="source to target"))
-        for one, two in zip(wrong, as_one_sided, strict=True):
-            np.testing.assert_allclose(one.left.flow.p_moving, two.left.flow.p_moving, atol=1e-5)
+        for wrong_step, two in zip(wrong, as_one_sided, strict=True):
+            np.testing.assert_allclose(
+                wrong_step.left.flow.p_moving, two.left.flow.p_moving, atol=1e-5
+            )
         ours = flows(params)
         assert np.abs(wrong[-1].left.flow.p_moving - ours[-1].left.flow.p_moving).max() > 0.1
         assert wrong[-1].right.flow.value == pytest.approx(ours[-1].right.flow.value)
@@ -65,8 +71,10 @@ class TestSlots:
         right = flows(params, one_sided=brute_one_sided)
         wrong = flows(params, one_sided=lambda p_a, p_b: brute_one_sided(p_b, p_a))
         other = flows(replace(params, lowers=OTHER_SIDE[lowers]))
-        for one, two, three, four in zip(ours, right, wrong, other, strict=True):
-            np.testing.assert_allclose(two.left.flow.p_moving, one.left.flow.p_moving, atol=1e-9)
+        for expected, two, three, four in zip(ours, right, wrong, other, strict=True):
+            np.testing.assert_allclose(
+                two.left.flow.p_moving, expected.left.flow.p_moving, atol=1e-9
+            )
             np.testing.assert_allclose(three.left.flow.p_moving, four.left.flow.p_moving, atol=1e-5)
         assert np.abs(ours[-1].left.flow.p_moving - other[-1].left.flow.p_moving).max() > 0.05
 
@@ -76,8 +84,10 @@ class TestSlots:
         ours = flows(params)
         theirs = flows(params, earth_movers=earth_movers_of_copies)
         assert len(ours[0].clouds.p_source) != len(ours[0].clouds.p_target)
-        for one, two in zip(ours, theirs, strict=True):
-            np.testing.assert_allclose(two.right.flow.p_moving, one.right.flow.p_moving, atol=1e-9)
+        for expected, two in zip(ours, theirs, strict=True):
+            np.testing.assert_allclose(
+                two.right.flow.p_moving, expected.right.flow.p_moving, atol=1e-9
+            )
         left_out = flows(params, earth_movers=points_left_out)
         assert left_out[0].right.flow.value < 0.9 * ours[0].right.flow.value
 
@@ -116,8 +126,8 @@ class TestOwnClouds:
         target = self.write(tmp_path, "a.xyz", p)
         source = self.write(tmp_path, "b.xyz", p[:200] + np.array([30.0, 0, 0]))
         params = Input(target=target, source=source, points=50, source_points=40, steps=5)
-        found = states(params)
-        clouds = found[0].clouds
+        run = states(params)
+        clouds = run[0].clouds
         assert clouds.p_target.shape == (50, 3)
         assert clouds.p_source.shape == (40, 3)
         assert np.abs(clouds.p_target).max() < 1.1

@@ -64,7 +64,7 @@ def test_a_mount_locks_at_the_zenith_as_the_page_says():
 
     assert lesson.page is not None
     page = lesson.page.read_text(encoding="utf-8")
-    for tilt, said in ((45, "0.71 at 45°"), (89, "0.017 at 89°"), (90, "0 at 90°")):
+    for tilt, claim in ((45, "0.71 at 45°"), (89, "0.017 at 89°"), (90, "0 at 90°")):
         at = np.radians(tilt)
         d = 1e-5
         J = np.column_stack(
@@ -75,8 +75,8 @@ def test_a_mount_locks_at_the_zenith_as_the_page_says():
         )
         sizes = np.linalg.svd(J, compute_uv=False)
         np.testing.assert_allclose(sizes, [1.0, np.cos(at)], atol=1e-6)
-        assert float(said.split()[0]) == pytest.approx(sizes[1], abs=0.005)
-        assert said in page
+        assert float(claim.split()[0]) == pytest.approx(sizes[1], abs=0.005)
+        assert claim in page
     assert "gimbal lock" in page
     assert "without a lock" not in page
 
@@ -107,10 +107,10 @@ def test_angles_drawn_evenly_are_not_even():
 
 @pytest.mark.parametrize(("sigma", "short"), [(10.0, 0.15), (20.0, 0.59), (30.0, 1.28)])
 def test_the_mean_of_a_banana_is_short(sigma, short):
-    now = last_of(replace(lesson.preset("banana").params, bearing_noise=sigma)).now
-    assert 10 - now.mean[0] == pytest.approx(short, abs=0.06)
-    assert np.linalg.norm(now.debiased - now.true) < 0.12
-    assert np.linalg.norm(now.expected - now.true) == pytest.approx(
+    scatter = last_of(replace(lesson.preset("banana").params, bearing_noise=sigma)).now
+    assert 10 - scatter.mean[0] == pytest.approx(short, abs=0.06)
+    assert np.linalg.norm(scatter.debiased - scatter.true) < 0.12
+    assert np.linalg.norm(scatter.expected - scatter.true) == pytest.approx(
         10 * (1 - np.exp(-(np.radians(sigma) ** 2) / 2))
     )
 
@@ -119,16 +119,18 @@ def test_the_mean_of_a_banana_is_short(sigma, short):
     ("name", "more"), [("great-circle", 11.9), ("anchorage", 33.6), ("equator", 0.0)]
 )
 def test_straight_on_the_map_costs(name, more):
-    now = of(name)[-2].now
-    assert 100 * (now.straight_length / now.direct - 1) == pytest.approx(more, abs=0.06)
+    voyage = of(name)[-2].now
+    assert 100 * (voyage.straight_length / voyage.direct - 1) == pytest.approx(more, abs=0.06)
     assert 100 * (straight_over_shortest(of(name)[0].subject.degrees) - 1) == pytest.approx(
         more, abs=0.06
     )
 
 
 def test_how_much_longer_is_said_with_digits_that_mean_something():
-    said = [caption_of(draw(of(name)[-2])).text for name in ("great-circle", "equator", "dateline")]
-    assert [text.rsplit(", ", 1)[1] for text in said] == [
+    texts = [
+        caption_of(draw(of(name)[-2])).text for name in ("great-circle", "equator", "dateline")
+    ]
+    assert [text.rsplit(", ", 1)[1] for text in texts] == [
         "11.9 % more.",
         "less than 0.01 % more.",
         "3,157 % more.",
@@ -148,11 +150,11 @@ def test_the_means_of_numbers():
 
 
 def test_latitudes_differ_most_half_way():
-    now = last("latitude")
-    off = np.degrees(now.latitude - now.geocentric)
+    latitudes = last("latitude")
+    off = np.degrees(latitudes.latitude - latitudes.geocentric)
     assert off.max() == pytest.approx(0.192, abs=1e-3)
-    assert now.apart.max() / 1e3 == pytest.approx(21.4, abs=0.1)
-    assert np.degrees(now.latitude[off.argmax()]) == pytest.approx(45)
+    assert latitudes.apart.max() / 1e3 == pytest.approx(21.4, abs=0.1)
+    assert np.degrees(latitudes.latitude[off.argmax()]) == pytest.approx(45)
     assert np.degrees(np.max(last("saturn").latitude - last("saturn").geocentric)) == pytest.approx(
         5.9, abs=0.05
     )
@@ -163,13 +165,13 @@ def test_latitudes_differ_most_half_way():
     [("zenith", 1.0, 3282), ("keyhole", 0.1, 32_828), ("wide", 30.0, 99.2)],
 )
 def test_the_pan_axis_turns_without_bound(name, miss, rate):
-    now = last(name)
+    followed = last(name)
     assert (
-        np.degrees(now.pan_peak)
+        np.degrees(followed.pan_peak)
         == pytest.approx(rate, rel=1e-3)
         == pytest.approx(fastest(miss)[0], rel=1e-3)
     )
-    assert np.degrees(now.sight_peak) == pytest.approx(fastest(miss)[1])
+    assert np.degrees(followed.sight_peak) == pytest.approx(fastest(miss)[1])
     assert tone(name) == "good"
     assert len(of(name)) < 40
 
@@ -182,34 +184,34 @@ def test_the_zenith_itself_is_among_the_moments():
 
 
 def test_parallels_meet_and_come_back():
-    found = of("infinity")
-    assert TURNS[11] == 0 == found[11].now.x_h[2]  # where the page says w = 0
-    far = [abs(state.now.x_h[0] / state.now.x_h[2]) for state in found[:11]]
+    steps = of("infinity")
+    assert TURNS[11] == 0 == steps[11].now.x_h[2]  # where the page says w = 0
+    far = [abs(state.now.x_h[0] / state.now.x_h[2]) for state in steps[:11]]
     assert far[6] == pytest.approx(57.3, abs=0.1)
     assert far[9] == pytest.approx(5730, abs=1)
     assert far[10] == pytest.approx(57.3e6, rel=1e-3)
-    assert found[-1].now.x_h[0] / found[-1].now.x_h[2] == pytest.approx(2.5)
-    np.testing.assert_allclose([state.now.cross_ratio for state in found], 9 / 7)
+    assert steps[-1].now.x_h[0] / steps[-1].now.x_h[2] == pytest.approx(2.5)
+    np.testing.assert_allclose([state.now.cross_ratio for state in steps], 9 / 7)
     assert tone("horizon") == "good"
 
 
 def test_the_angle_of_the_knob_is_the_last_one():
-    found = states(Params(stage="projective", angle_between=7.0))
-    angles = [np.degrees(state.now.angle) for state in found]
+    steps = states(Params(stage="projective", angle_between=7.0))
+    angles = [np.degrees(state.now.angle) for state in steps]
     assert angles[:4] == pytest.approx([40, 30, 20, 10])
     assert set(np.round(angles[4:], 9)) == {7.0}
 
 
 def test_vectors_with_other_w_pull_more():
-    now = last("weights")
-    p, q, mean = (h[:3] / h[3] for h in (now.p_h, now.other_h, now.mean_h))
+    weighted = last("weights")
+    p, q, mean = (h[:3] / h[3] for h in (weighted.p_h, weighted.other_h, weighted.mean_h))
     np.testing.assert_allclose(mean, (p + 3 * q) / 4)
 
 
 def test_the_eye_steps_back():
-    now = last("near-far")
-    assert now.near == pytest.approx(0.0101, abs=1e-4)
-    assert np.abs(now.perspective - now.parallel).max() < 0.01
+    view = last("near-far")
+    assert view.near == pytest.approx(0.0101, abs=1e-4)
+    assert np.abs(view.perspective - view.parallel).max() < 0.01
     near = [state.now.near for state in of("near-far")]
     assert (np.diff(near) < 0).all()
     last_one = last_of(Params(stage="project", distance=10.0)).now
@@ -274,21 +276,21 @@ def test_wrong_meetings_are_told():
         assert caption_of(draw(state)).tone == "wrong"
     by_w = lambda a, b: np.cross(a, b) / np.cross(a, b)[:, 2:]  # noqa: E731
     with np.errstate(all="ignore"):
-        found = [
+        tones = [
             caption_of(draw(state)).tone for state in run(Params(stage="projective"), meet=by_w)
         ]
-    assert [k for k, tone in enumerate(found) if tone == "wrong"] == [11]
+    assert [k for k, tone in enumerate(tones) if tone == "wrong"] == [11]
 
 
 def test_ways_are_as_long_as_they_are_measured():
     for value in (1e3, 0.0, np.nan):
-        found: list[Any]
-        *found, _ = run(
+        steps: list[Any]
+        *steps, _ = run(
             Params(stage="globe"),
             great_circle_distance=lambda a, b, radius, v=value: np.full(len(a), v),
         )
-        np.testing.assert_equal(found[-1].now.circle_length, 192 * value)
-        assert [caption_of(draw(state)).tone for state in found] == ["info"] + 16 * ["wrong"]
+        np.testing.assert_equal(steps[-1].now.circle_length, 192 * value)
+        assert [caption_of(draw(state)).tone for state in steps] == ["info"] + 16 * ["wrong"]
     assert great_circle_distance(np.zeros((1, 2)), np.array([[0.0, 90.0]]))[0] == pytest.approx(
         EARTH * np.pi / 2
     )

@@ -28,10 +28,10 @@ def listed(folder: Path, *rows: str) -> Path:
 
 def test_own_places_take_the_cities_place(tmp_path):
     path = listed(tmp_path, "48.1,11.6,Munich", "50.1,8.7,Frankfurt", "53.6,10.0,Hamburg")
-    found = steps(Params(stage="globe", places=path))
-    text = caption_of(lesson.draw(found[-2])).text
+    states = steps(Params(stage="globe", places=path))
+    text = caption_of(lesson.draw(states[-2])).text
     assert text.startswith("Munich to Hamburg: 622 km")
-    scene = lesson.draw(found[-1])
+    scene = lesson.draw(states[-1])
     assert {"name/0", "name/1", "name/2"} <= set(scene)
     assert caption_of(scene).tone == "good"  # so near to each other means of numbers do
 
@@ -53,12 +53,12 @@ def test_places_without_way_or_middle_are_refused(tmp_path, rows, words):
 def test_an_own_object_takes_the_houses_place(tmp_path):
     p = np.random.default_rng(0).uniform(-300, 300, (400, 3)) + 5000
     np.save(tmp_path / "box.npy", p)
-    found = steps(Params(stage="project", cloud=tmp_path / "box.npy"))
-    thing = found[0].subject
+    states = steps(Params(stage="project", cloud=tmp_path / "box.npy"))
+    thing = states[0].subject
     assert thing.name == "box.npy"
     assert np.ptp(thing.p, axis=0).max() == pytest.approx(1.1, abs=0.06)
     assert thing.half_depth == pytest.approx(np.abs(thing.p[:, 1]).max())
-    assert {"perspective", "parallel", "rays"} <= set(lesson.draw(found[2]))
+    assert {"perspective", "parallel", "rays"} <= set(lesson.draw(states[2]))
 
 
 @pytest.mark.parametrize(
@@ -92,8 +92,8 @@ def test_rays_of_a_real_depth_camera_lie_on_a_grid_of_pixels(shared_data):
     for uv in (x, y):
         steps = np.diff(np.unique(uv.round(1)))
         assert 0.5 < np.median(steps[steps > 0.3]) < 1.5
-    found = steps_of_real(shared_data / "ransac" / "capture0001.pcd", "y")
-    assert found[-1].now.near == pytest.approx(1 / 99)
+    states = steps_of_real(shared_data / "ransac" / "capture0001.pcd", "y")
+    assert states[-1].now.near == pytest.approx(1 / 99)
 
 
 def test_a_real_vehicle_scan_as_a_range_image_shows_no_rings(shared_data):
@@ -109,6 +109,6 @@ def test_a_real_vehicle_scan_as_a_range_image_shows_no_rings(shared_data):
 
 
 def steps_of_real(path: Path, up: Any) -> list[Any]:
-    found = steps(Params(stage="project", cloud=path, up=up))
-    assert len(found[0].subject.p) <= 3000
-    return found
+    states = steps(Params(stage="project", cloud=path, up=up))
+    assert len(states[0].subject.p) <= 3000
+    return states

@@ -48,10 +48,10 @@ def test_stages_come_in_the_order_of_the_page():
 
 
 def test_cylinder_has_no_gaussian_curvature_and_h_one():
-    now = at(preset("cylinder"), "mean").now
+    measured = at(preset("cylinder"), "mean").now
     inside = at(preset("cylinder"), "mean").subject.inside
-    np.testing.assert_allclose(now.K[inside], 0, atol=1e-9)
-    np.testing.assert_allclose(now.H[inside], 1 / (2 * 0.5), rtol=2e-3)
+    np.testing.assert_allclose(measured.K[inside], 0, atol=1e-9)
+    np.testing.assert_allclose(measured.H[inside], 1 / (2 * 0.5), rtol=2e-3)
 
 
 def test_catenoid_has_no_mean_curvature_and_negative_k():
@@ -63,22 +63,22 @@ def test_catenoid_has_no_mean_curvature_and_negative_k():
 
 
 def test_twice_as_large_leaves_a_quarter_a_half_and_what_has_no_unit():
-    one, two = (at(params, "quadric") for params in (Input(), preset("double")))
-    np.testing.assert_allclose(two.now.K, one.now.K / 4, atol=1e-9)
-    np.testing.assert_allclose(two.now.H, one.now.H / 2, atol=1e-9)
-    np.testing.assert_allclose(two.now.defects, one.now.defects, atol=1e-12)
-    assert one.now.vertex == two.now.vertex
-    bends = [surface_variation(state.subject.p[state.two_rings]) for state in (one, two)]
+    original, two = (at(params, "quadric") for params in (Input(), preset("double")))
+    np.testing.assert_allclose(two.now.K, original.now.K / 4, atol=1e-9)
+    np.testing.assert_allclose(two.now.H, original.now.H / 2, atol=1e-9)
+    np.testing.assert_allclose(two.now.defects, original.now.defects, atol=1e-12)
+    assert original.now.vertex == two.now.vertex
+    bends = [surface_variation(state.subject.p[state.two_rings]) for state in (original, two)]
     assert bends[1] == pytest.approx(bends[0], rel=1e-9)
 
 
 def test_inside_out_turns_h_and_principal_curvatures_but_not_k():
-    one, two = (at(params, "principal") for params in (Input(), preset("inside-out")))
-    np.testing.assert_allclose(two.now.K, one.now.K, atol=1e-9)
-    np.testing.assert_allclose(two.now.H, -one.now.H, atol=1e-9)
-    np.testing.assert_allclose(two.now.k1, -one.now.k2, atol=1e-7)
-    assert one.now.vertex == two.now.vertex
-    assert two.errors["H"] == pytest.approx(one.errors["H"])
+    original, two = (at(params, "principal") for params in (Input(), preset("inside-out")))
+    np.testing.assert_allclose(two.now.K, original.now.K, atol=1e-9)
+    np.testing.assert_allclose(two.now.H, -original.now.H, atol=1e-9)
+    np.testing.assert_allclose(two.now.k1, -original.now.k2, atol=1e-7)
+    assert original.now.vertex == two.now.vertex
+    assert two.errors["H"] == pytest.approx(original.errors["H"])
 
 
 def test_a_defect_taken_for_k_is_far_too_small_and_smaller_on_finer_meshes():
@@ -94,10 +94,10 @@ def test_a_defect_taken_for_k_is_far_too_small_and_smaller_on_finer_meshes():
 
 
 def test_the_forgotten_half_doubles_h_and_tears_k1_and_k2_apart():
-    now = at(preset("no-half"), "principal").now
-    np.testing.assert_allclose(now.H, 2, rtol=1e-3)
-    np.testing.assert_allclose(now.H**2 - now.K, 3, rtol=0.05)
-    assert (now.k1 - now.k2).min() > 3
+    measured = at(preset("no-half"), "principal").now
+    np.testing.assert_allclose(measured.H, 2, rtol=1e-3)
+    np.testing.assert_allclose(measured.H**2 - measured.K, 3, rtol=0.05)
+    assert (measured.k1 - measured.k2).min() > 3
     right = at(dataclasses.replace(preset("no-half"), mistake="none"), "principal").now
     assert (right.k1 - right.k2).max() < 0.4
 
@@ -117,9 +117,9 @@ def test_two_pi_on_the_border_adds_pi_for_each_of_its_vertices():
     state = at(preset("border-2pi"), "total")
     border = int(state.subject.border.sum())
     assert state.now.total == pytest.approx(2 * np.pi + np.pi * border)
-    said = caption(at(preset("border-2pi"), "total"))
-    assert said.tone == "wrong"
-    assert f"each of the {border} border vertices" in said.text
+    border_caption = caption(at(preset("border-2pi"), "total"))
+    assert border_caption.tone == "wrong"
+    assert f"each of the {border} border vertices" in border_caption.text
     right = at(dataclasses.replace(preset("border-2pi"), mistake="none"), "total")
     assert right.now.total == pytest.approx(2 * np.pi, abs=1e-9)
 
@@ -198,16 +198,18 @@ def test_answers_are_read_off_the_run():
 
 
 def test_numbers_of_the_page():
-    now = at(Input(), "gaussian").now
-    assert np.degrees(now.defects[now.vertex]) == pytest.approx(3.2, abs=0.05)
-    assert now.K[now.vertex] == pytest.approx(1.17, abs=0.005)
+    gaussian = at(Input(), "gaussian").now
+    assert np.degrees(gaussian.defects[gaussian.vertex]) == pytest.approx(3.2, abs=0.05)
+    assert gaussian.K[gaussian.vertex] == pytest.approx(1.17, abs=0.005)
     assert at(Input(), "gaussian").true("gaussian") == pytest.approx(1.16, abs=0.005)
-    inner = np.linalg.norm(now.p[:, :2], axis=1) < 0.85
-    assert (now.defects[inner] < 0).all()
-    now = at(Input(), "principal").now
-    assert 1 / now.k1[now.vertex] == pytest.approx(0.4, rel=0.02)
-    along_ring = np.cross([0, 0, 1], now.p[now.vertex])
-    assert abs(now.along_k2[now.vertex] @ along_ring) / np.linalg.norm(along_ring) > 0.99
+    inner = np.linalg.norm(gaussian.p[:, :2], axis=1) < 0.85
+    assert (gaussian.defects[inner] < 0).all()
+    principal = at(Input(), "principal").now
+    assert 1 / principal.k1[principal.vertex] == pytest.approx(0.4, rel=0.02)
+    along_ring = np.cross([0, 0, 1], principal.p[principal.vertex])
+    assert (
+        abs(principal.along_k2[principal.vertex] @ along_ring) / np.linalg.norm(along_ring) > 0.99
+    )
     assert at(Input(), "quadric").errors["K by fit"] > 10 * at(Input(), "quadric").errors["K"]
 
 
@@ -264,7 +266,7 @@ def test_the_balls_gaps_shrink_with_their_cells_and_k_settles_on_one():
         assert total.sum() == pytest.approx(4 * np.pi)  # Gauss and Bonnet, whatever the mesh
         assert last.gaps[k] == pytest.approx(gap_of_all(surface)[v])
         assert np.radians(last.gaps[k]) / last.areas[k] == pytest.approx(last.K[k])
-    counts = np.array([len(one.p) for one in subject.surfaces])
+    counts = np.array([len(ball.p) for ball in subject.surfaces])
     slope = np.polyfit(np.log(counts), np.log(last.errors), 1)[0]
     assert slope == pytest.approx(-1.0, abs=0.05)  # second order in the edges
     assert abs(last.K[-1] - 1.0) < 1e-3

@@ -107,8 +107,8 @@ def test_awkward_meshes_are_mended_and_the_caption_says_how(tmp_path, p, faces, 
     run = timeline(params)
     start = states(params)[0]
     total = states(params)[-1]
-    said = caption_of(run[0].scene).text
-    assert f"Mended: {words}." in said if words else "Mended" not in said
+    text = caption_of(run[0].scene).text
+    assert f"Mended: {words}." in text if words else "Mended" not in text
     assert total.now.chi == chi
     assert total.now.total == pytest.approx(2 * np.pi * total.now.chi, abs=1e-9)
     assert len(start.subject.faces) == len(np.unique(np.sort(faces, axis=1), axis=0))
@@ -157,8 +157,8 @@ def test_which_axis_points_up_is_kept_with_an_own_mesh():
 
 def test_minus_y_stands_it_on_its_head(tmp_path):
     params = written(tmp_path, *tower("y"))
-    one, two = (states(dataclasses.replace(params, up=up))[0].subject for up in ("y", "-y"))
-    np.testing.assert_allclose(two.p[:, 2], -one.p[:, 2], atol=1e-9)
+    upright, two = (states(dataclasses.replace(params, up=up))[0].subject for up in ("y", "-y"))
+    np.testing.assert_allclose(two.p[:, 2], -upright.p[:, 2], atol=1e-9)
 
 
 @pytest.mark.parametrize(

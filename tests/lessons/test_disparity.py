@@ -61,43 +61,43 @@ def edge(picture: Primitive, side: str) -> np.ndarray:
     return picture.places(np.array([picture.rgb().shape[1] if side == "right" else 0.0, 0.0]))
 
 
-def errors(found, step: int) -> np.ndarray:
-    return depth_errors(found.subject, found[step].depth)
+def errors(maps, step: int) -> np.ndarray:
+    return depth_errors(maps.subject, maps[step].depth)
 
 
 class TestPresets:
     def test_spheres(self):
-        found = preset("spheres")
-        assert of_stage(found, Stage.COMPARE).wrong == pytest.approx(0.74, abs=0.005)
-        assert of_stage(found, Stage.AGGREGATE).wrong == pytest.approx(0.12, abs=0.005)
-        assert found[LAST_CHOICE].wrong == pytest.approx(0.02, abs=0.005)
-        given_up = np.isnan(of_stage(found, Stage.CHECK).disparity[~visible_in(found)]).mean()
+        maps = preset("spheres")
+        assert of_stage(maps, Stage.COMPARE).wrong == pytest.approx(0.74, abs=0.005)
+        assert of_stage(maps, Stage.AGGREGATE).wrong == pytest.approx(0.12, abs=0.005)
+        assert maps[LAST_CHOICE].wrong == pytest.approx(0.02, abs=0.005)
+        given_up = np.isnan(of_stage(maps, Stage.CHECK).disparity[~visible_in(maps)]).mean()
         assert given_up == pytest.approx(0.8, abs=0.03)
 
     def test_textureless_is_flat_and_wrong_at_a_low_cost(self):
-        found = preset("textureless")
-        bare = found[LAST_CHOICE]
+        maps = preset("textureless")
+        bare = maps[LAST_CHOICE]
         home = states(replace(BARE, pixel=(20, 60)))[LAST_CHOICE]
         assert bare.stage is Stage.AGGREGATE
-        assert off_in(found, bare, BARE_PART) > 0.9
-        u, v = found.subject.pixel
-        assert truth_of(found)[v, u] == pytest.approx(7.54, abs=0.01)
+        assert off_in(maps, bare, BARE_PART) > 0.9
+        u, v = maps.subject.pixel
+        assert truth_of(maps)[v, u] == pytest.approx(7.54, abs=0.01)
         flat, valley = bare.costs, home.costs
         assert np.nanmax(flat) < 0.3 * np.nanmedian(valley)  # low, whatever the shift
         assert np.nanmin(valley) < 0.4 * np.nanmedian(valley)  # beside a texture one stands out
         assert np.nanmin(flat) > 0.55 * np.nanmedian(flat)
 
     def test_textureless_and_jumps_forbidden(self):
-        found = preset("textureless-smooth")
-        summed = of_stage(found, Stage.AGGREGATE)
-        assert off_in(found, found[LAST_CHOICE], BARE_PART) < 0.03
-        assert off_in(found, summed, BARE_PART) > 0.9
+        maps = preset("textureless-smooth")
+        summed = of_stage(maps, Stage.AGGREGATE)
+        assert off_in(maps, maps[LAST_CHOICE], BARE_PART) < 0.03
+        assert off_in(maps, summed, BARE_PART) > 0.9
         assert np.nanmin(summed.costs) > 0.8 * np.sort(summed.costs)[2]
 
     def test_repeated(self):
-        found = preset("repeated")
-        costs = found[LAST_CHOICE].costs
-        assert off_in(found, found[LAST_CHOICE], STRIPED_PART) == pytest.approx(0.8, abs=0.02)
+        maps = preset("repeated")
+        costs = maps[LAST_CHOICE].costs
+        assert off_in(maps, maps[LAST_CHOICE], STRIPED_PART) == pytest.approx(0.8, abs=0.02)
         inner = costs[1:-1]
         valleys = 1 + np.flatnonzero((inner < costs[:-2]) & (inner < costs[2:]))
         assert np.diff(valleys).tolist() == [6] * (len(valleys) - 1)
@@ -106,15 +106,15 @@ class TestPresets:
         assert costs[valleys].max() < 0.5 * np.median(costs)
 
     def test_repeated_with_paths(self):
-        found = preset("repeated-paths")
-        assert off_in(found, found[LAST_CHOICE], STRIPED_PART) < 0.01
+        maps = preset("repeated-paths")
+        assert off_in(maps, maps[LAST_CHOICE], STRIPED_PART) < 0.01
 
     def test_occlusion(self):
-        found = preset("occlusion")
-        state = found[CHECKED]
-        seen = visible_in(found)
+        maps = preset("occlusion")
+        state = maps[CHECKED]
+        seen = visible_in(maps)
         assert state.stage is Stage.CHECK
-        u, v = found.subject.pixel
+        u, v = maps.subject.pixel
         assert not seen[v, u]
         assert not seen[10:110, 71:76].any()  # the band left of the second post, from u = 77 on
         assert seen[10:110, 78:90].all()
@@ -122,10 +122,10 @@ class TestPresets:
 
     def test_window_21_fattens(self):
         small = preset("window-3")[LAST_CHOICE]
-        found = preset("window-21")
-        large = found[LAST_CHOICE]
-        truth = truth_of(found)
-        seen = visible_in(found)
+        maps = preset("window-21")
+        large = maps[LAST_CHOICE]
+        truth = truth_of(maps)
+        seen = visible_in(maps)
         assert small.wrong == pytest.approx(1 / 3, abs=0.03)
         assert large.wrong < small.wrong / 3.5
         wall = np.isclose(truth, 150 * 0.1 / 2.6) & seen
@@ -137,10 +137,10 @@ class TestPresets:
     def test_baselines(self):
         off, lost = {}, {}
         for params in (HALF, PLANES, DOUBLE):
-            found = states(params)
-            off[params.baseline] = np.median(errors(found, LAST))
-            lost[params.baseline] = hidden(found.subject.pair)
-            assert np.nanmedian(truth_of(found)) == pytest.approx(
+            maps = states(params)
+            off[params.baseline] = np.median(errors(maps, LAST))
+            lost[params.baseline] = hidden(maps.subject.pair)
+            assert np.nanmedian(truth_of(maps)) == pytest.approx(
                 np.nanmedian(truth_of(states(PLANES))) * params.baseline / 0.1
             )
         assert off[0.05] / off[0.1] == pytest.approx(2.0, rel=0.15)
@@ -149,11 +149,11 @@ class TestPresets:
         assert lost[0.2] / lost[0.1] == pytest.approx(2.0, rel=0.1)
 
     def test_one_pixel(self):
-        found = preset("one-pixel")
-        assert found[LAST].disparity_error == 1.0
-        seen = boards(found)
+        maps = preset("one-pixel")
+        assert maps[LAST].disparity_error == 1.0
+        seen = boards(maps)
         for d, depth in ((80, 1), (16, 5), (4, 20)):  # Z = f B / d with one pixel more
-            assert (np.abs(80 - truth_of(found) * depth) < 1e-6).sum() > 1500
+            assert (np.abs(80 - truth_of(maps) * depth) < 1e-6).sum() > 1500
             assert depth - seen[depth] == pytest.approx(depth - 80 / (d + 1), rel=0.01)
         fewer = boards(states(replace(ONE_PIXEL, disparity_error=-1.0)))
         assert fewer[20] - 20 == pytest.approx(80 / 3 - 20, rel=0.02)
@@ -162,19 +162,19 @@ class TestPresets:
 
     def test_the_boards_are_found_where_they_stand_whatever_the_seed(self):
         for seed in (1, 5, 9):
-            found = boards(states(replace(BOARDS, seed=seed)))
-            assert found == {z: pytest.approx(z, rel=0.002) for z in (1, 5, 20)}
+            depths = boards(states(replace(BOARDS, seed=seed)))
+            assert depths == {z: pytest.approx(z, rel=0.002) for z in (1, 5, 20)}
 
     def test_sky(self):
-        found = preset("sky")
-        u, v = found.subject.pixel
-        assert truth_of(found)[v, u] == 0.0
-        assert chosen_of(found, DEPTH) == 0.0
-        assert np.isinf(found[DEPTH].depth[v, u])
-        assert np.isinf(found[DEPTH].depth).sum() > 5000
-        assert np.isnan(found[DEPTH].depth).any()
-        said = timeline(lesson.preset("sky").params)[DEPTH].caption.text
-        assert "infinitely far, not missing" in said
+        maps = preset("sky")
+        u, v = maps.subject.pixel
+        assert truth_of(maps)[v, u] == 0.0
+        assert chosen_of(maps, DEPTH) == 0.0
+        assert np.isinf(maps[DEPTH].depth[v, u])
+        assert np.isinf(maps[DEPTH].depth).sum() > 5000
+        assert np.isnan(maps[DEPTH].depth).any()
+        text = timeline(lesson.preset("sky").params)[DEPTH].caption.text
+        assert "infinitely far, not missing" in text
 
     def test_exposure(self):
         assert preset("darker")[LAST_CHOICE].wrong == pytest.approx(0.94, abs=0.005)
@@ -185,13 +185,13 @@ class TestPresets:
         assert preset("rows-off")[LAST_CHOICE].wrong == pytest.approx(2 / 3, abs=0.02)
 
     def test_motorcycle(self):
-        found = preset("motorcycle")
-        assert found[LAST_CHOICE].wrong == pytest.approx(0.06, abs=0.005)
-        camera = found.subject.pair.camera
+        maps = preset("motorcycle")
+        assert maps[LAST_CHOICE].wrong == pytest.approx(0.06, abs=0.005)
+        camera = maps.subject.pair.camera
         assert camera.f == pytest.approx(994.978 / 4)
         assert camera.doffs == pytest.approx(31.086 / 4)
         assert camera.baseline == pytest.approx(0.193001)
-        assert np.median(errors(found, DEPTH)) < 0.05
+        assert np.median(errors(maps, DEPTH)) < 0.05
 
     def test_f_of_the_large_pictures(self):
         right, wrong = preset("motorcycle"), preset("f-not-rescaled")
@@ -209,21 +209,21 @@ class TestPage:
         assert of_depths > 3 * of_disparities
 
     def test_the_energy_falls_along_the_paths_and_the_error_with_it(self):
-        found = [state for state in states(HOME) if state.stage in (Stage.AGGREGATE, Stage.PATHS)]
-        assert np.all(np.diff([state.energy for state in found]) < 0)
-        assert found[-1].wrong < found[0].wrong / 3
+        maps = [state for state in states(HOME) if state.stage in (Stage.AGGREGATE, Stage.PATHS)]
+        assert np.all(np.diff([state.energy for state in maps]) < 0)
+        assert maps[-1].wrong < maps[0].wrong / 3
         lowest = [state.lowest for state in states(HOME) if state.stage is Stage.COMPARE]
         assert np.all(np.diff(lowest) <= 0)
 
     def test_parabolas_pull_to_whole_pixels(self):
-        found = boards(states(replace(BOARDS, focal_length=700.0, baseline=0.12)))
-        assert found[20] > 20.2
-        assert 4.0 < 84 / found[20] < 4.15
-        assert (np.abs([84 / found[20] - 4.2, 84 / found[5] - 16.8]) > 0.03).all()
+        depths = boards(states(replace(BOARDS, focal_length=700.0, baseline=0.12)))
+        assert depths[20] > 20.2
+        assert 4.0 < 84 / depths[20] < 4.15
+        assert (np.abs([84 / depths[20] - 4.2, 84 / depths[5] - 16.8]) > 0.03).all()
 
     def test_sub_pixel_halves_the_error(self):
-        found = states(HOME)
-        assert of_stage(found, Stage.REFINE).error < 0.65 * of_stage(found, Stage.CHECK).error
+        maps = states(HOME)
+        assert of_stage(maps, Stage.REFINE).error < 0.65 * of_stage(maps, Stage.CHECK).error
 
     def test_the_measured_error_follows_the_square(self):
         scene = timeline(PLANES)[LAST].scene
@@ -289,7 +289,7 @@ class TestPicture:
     def test_the_row_crosses_both_pictures_and_holds_the_pixel_and_its_partner(self):
         for name, beside in (("spheres", 0), ("rows-off", ROWS_OFF)):
             params = lesson.preset(name).params
-            found = preset(name)
+            maps = preset(name)
             scene = timeline(params)[LAST_CHOICE].scene
             left, right, row = (scene[path] for path in ("left/picture", "right/picture", "row"))
             assert isinstance(left, Picture)
@@ -300,8 +300,8 @@ class TestPicture:
             assert np.allclose(row.ends[0], ends, atol=0.01)
             for path, picture, at in (
                 ("left/window", left, (u, v)),
-                ("right/window", right, (u - chosen_of(found, LAST_CHOICE), v)),
-                ("right/truth", right, (u - truth_of(found)[v, u], v + beside)),
+                ("right/window", right, (u - chosen_of(maps, LAST_CHOICE), v)),
+                ("right/truth", right, (u - truth_of(maps)[v, u], v + beside)),
             ):
                 window = scene[path]
                 assert isinstance(window, Segments)
@@ -316,7 +316,9 @@ class TestPicture:
             scale = states(params).subject.scale
             assert isinstance(scene["cloud"], Points)
             assert 1.2 < scene["cloud"].p[:, 1].max() < 2.31
-            marks = [one for path, one in scene.items() if path.startswith("label/depth")]
+            marks = [
+                primitive for path, primitive in scene.items() if path.startswith("label/depth")
+            ]
             assert 2 <= len(marks) <= 5
             for mark in marks:
                 assert isinstance(mark, Label)
@@ -353,11 +355,11 @@ class TestPicture:
         for name in ("l.png", "r.png"):
             Image.fromarray(bare).save(tmp_path / name)
         params = Input(left=tmp_path / "l.png", right=tmp_path / "r.png", shrink=1)
-        found = timeline(params)
-        assert np.isnan(found[LAST].state.wrong)
-        assert "map/error" not in found[LAST].scene
-        assert "truth" not in found[LAST].scene
-        assert found[LAST].caption.tone in ("info", "wrong")
+        run = timeline(params)
+        assert np.isnan(run[LAST].state.wrong)
+        assert "map/error" not in run[LAST].scene
+        assert "truth" not in run[LAST].scene
+        assert run[LAST].caption.tone in ("info", "wrong")
 
 
 def test_disparities_are_not_searched_beyond_the_picture():
@@ -368,8 +370,8 @@ def test_disparities_are_not_searched_beyond_the_picture():
 
 def test_the_valleys_are_6_px_apart_because_the_stripes_are():
     assert pictures_of(STRIPES).pair.camera.f * 6 * 1.99 / 150 == pytest.approx(6 * 1.99)
-    found = states(HOME)
-    u, v = found.subject.pixel
-    d = np.array([chosen_of(found, DEPTH)])
+    maps = states(HOME)
+    u, v = maps.subject.pixel
+    d = np.array([chosen_of(maps, DEPTH)])
     depth = depth_from_disparity(d, 150.0, 0.1)[0]
-    assert depth == pytest.approx(found[DEPTH].depth[v, u])
+    assert depth == pytest.approx(maps[DEPTH].depth[v, u])

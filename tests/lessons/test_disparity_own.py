@@ -49,11 +49,11 @@ class TestSlots:
             calls.append((left.shape, max_disparity, window, left.dtype))
             return 2 * sad_cost_volume(left, right, max_disparity, window)
 
-        found = run(PLANES, cost_volume=doubled)
+        maps = run(PLANES, cost_volume=doubled)
         assert calls == [((120, 160), 31, 1, np.float64), ((120, 160), 31, 3, np.float64)]
-        assert found[31].lowest == pytest.approx(2 * states(PLANES)[31].lowest)
-        assert np.nansum(found[32].costs) == pytest.approx(2 * np.nansum(states(PLANES)[32].costs))
-        assert np.array_equal(found[LAST_CHOICE].disparity, states(PLANES)[LAST_CHOICE].disparity)
+        assert maps[31].lowest == pytest.approx(2 * states(PLANES)[31].lowest)
+        assert np.nansum(maps[32].costs) == pytest.approx(2 * np.nansum(states(PLANES)[32].costs))
+        assert np.array_equal(maps[LAST_CHOICE].disparity, states(PLANES)[LAST_CHOICE].disparity)
         calls.clear()
         run(replace(PLANES, cost="census"), cost_volume=doubled)
         assert calls == []
@@ -65,10 +65,10 @@ class TestSlots:
         assert run(PLANES, cost_volume=mirrored)[LAST_CHOICE].wrong > 0.9
 
     def test_choose(self):
-        found = run(
+        maps = run(
             PLANES, choose=lambda cost: winner_takes_all(-np.where(np.isfinite(cost), cost, 0.0))
         )
-        assert found[LAST_CHOICE].wrong > 0.9
+        assert maps[LAST_CHOICE].wrong > 0.9
         same = run(PLANES, choose=lambda cost: np.argmin(cost, axis=0))
         assert all(
             np.array_equal(a.disparity, b.disparity, equal_nan=True)
@@ -76,9 +76,9 @@ class TestSlots:
         )
 
     def test_a_function_of_the_wrong_shape_ends_the_run_with_a_reason(self):
-        found = Timeline(lesson, PLANES, {"choose": lambda cost: np.zeros(3)}).complete()
-        assert found.stopped is not None
-        assert "\n" not in found.stopped
+        attempt = Timeline(lesson, PLANES, {"choose": lambda cost: np.zeros(3)}).complete()
+        assert attempt.stopped is not None
+        assert "\n" not in attempt.stopped
 
 
 class TestOwnPairs:
@@ -92,9 +92,9 @@ class TestOwnPairs:
     def test_a_pair_shrinks_and_gives_the_same_depths(self, files):
         left, right = files
         own = Input(left=left, right=right, shrink=2, own_focal_length=300.0, own_baseline=0.1)
-        found, made = states(own), states(HOME)
-        assert np.array_equal(found[LAST_CHOICE].disparity, made[LAST_CHOICE].disparity)
-        assert np.allclose(found[DEPTH].depth, made[DEPTH].depth, equal_nan=True)
+        shrunk, made = states(own), states(HOME)
+        assert np.array_equal(shrunk[LAST_CHOICE].disparity, made[LAST_CHOICE].disparity)
+        assert np.allclose(shrunk[DEPTH].depth, made[DEPTH].depth, equal_nan=True)
 
     def test_a_preset_keeps_a_pair_and_how_it_is_read(self, files):
         left, right = files
@@ -123,17 +123,17 @@ class TestOwnPairs:
         for step in (own[10], own[DEPTH], own[LAST]):
             assert step.caption.tone == "info"
             for path, primitive in step.scene.items():
-                said = [
+                texts = [
                     getattr(primitive, name, "") for name in ("text", "unit", "x_label", "y_label")
                 ]
-                said += [
+                texts += [
                     getattr(getattr(primitive, name, None), "unit", "")
                     for name in ("color", "image")
                 ]
-                said += [cell for row in getattr(primitive, "rows", ()) for cell in row]
-                assert not [words for words in said if re.search(r"(^|\d )m\b", str(words))], (
+                texts += [cell for row in getattr(primitive, "rows", ()) for cell in row]
+                assert not [words for words in texts if re.search(r"(^|\d )m\b", str(words))], (
                     path,
-                    said,
+                    texts,
                 )
             assert not {"law", "error/predicted"} & step.scene.keys()
             assert "grid" not in legend_html(step.scene, lesson.view.grid)
@@ -198,12 +198,12 @@ class TestOwnPairs:
             (Input(left=left, right=right, shrink=16), None),
             (replace(MOTORCYCLE, shrink=1, max_disparity=80), "raise shrink"),
         ):
-            found = Timeline(lesson, params)
-            while found.extend() and len(found) < 3:
+            attempt = Timeline(lesson, params)
+            while attempt.extend() and len(attempt) < 3:
                 pass
-            assert found.failure is None
-            assert (found.stopped is None) == (words is None)
-            assert words is None or words in str(found.stopped)
+            assert attempt.failure is None
+            assert (attempt.stopped is None) == (words is None)
+            assert words is None or words in str(attempt.stopped)
         assert f"{MOST_CELLS:,}" in str(
             Timeline(lesson, replace(MOTORCYCLE, shrink=1, max_disparity=80)).complete().stopped
         )

@@ -33,9 +33,9 @@ def states(params: Input) -> Any:
 
 
 def part(scene: Scene, path: str, kind: type[Kind]) -> Kind:
-    found = scene[path]
-    assert isinstance(found, kind)
-    return found
+    primitive = scene[path]
+    assert isinstance(primitive, kind)
+    return primitive
 
 
 class TestRow:
@@ -47,10 +47,10 @@ class TestRow:
             assert here.p[0, 0] == pytest.approx(window.ends[..., 0].mean(), abs=1e-9)
 
     def test_the_costs_are_drawn_as_high_as_they_are(self):
-        found = states(ROW)
+        run = states(ROW)
         scene = timeline(ROW)[31].scene
         p = part(scene, "costs", Points).p
-        costs = found[31].costs
+        costs = run[31].costs
         assert np.corrcoef(p[:, 2], costs)[0, 1] == pytest.approx(1.0)
         assert np.all(np.diff(p[:, 0]) < 0)  # a larger shift lies to the left
 
@@ -62,11 +62,11 @@ class TestRow:
 
     def test_a_row_costs_what_the_whole_volume_says(self):
         for params in (SINGLE, ROW, replace(ROW, window=9), replace(ROW, pixel=(54, 1))):
-            found = states(params)
-            pictures = found.subject
-            u, v = found.subject.pixel
+            run = states(params)
+            pictures = run.subject
+            u, v = run.subject.pixel
             whole = sad_cost_volume(pictures.left, pictures.right, 31, params.window)[:, v, u]
-            assert np.allclose(found[0].costs, whole)
+            assert np.allclose(run[0].costs, whole)
 
     def test_the_strips_show_the_pixels_themselves(self):
         scene = timeline(ROW)[15].scene
@@ -78,9 +78,9 @@ class TestRow:
         assert np.array_equal(middle, pictures.pair.left[v, u])
 
     def test_a_shift_beyond_the_picture_has_no_partner(self):
-        found = timeline(replace(ROW, pixel=(10, 60))).states()
-        assert np.isfinite(found[0].costs[:11]).all()
-        assert np.isnan(found[0].costs[11:]).all()
+        run = timeline(replace(ROW, pixel=(10, 60))).states()
+        assert np.isfinite(run[0].costs[:11]).all()
+        assert np.isnan(run[0].costs[11:]).all()
         assert "no partner" in timeline(replace(ROW, pixel=(10, 60)))[20].caption.text
 
     def test_a_students_costs_are_used(self):
@@ -96,9 +96,9 @@ class TestRow:
 
 class TestPath:
     def test_no_other_path_of_the_row_is_cheaper(self):
-        found = states(PATH)
-        tape = found[-1].tape
-        path = found[-1].path
+        run = states(PATH)
+        tape = run[-1].tape
+        path = run[-1].path
         P1, P2 = tape.penalties
 
         def price(shifts: np.ndarray) -> float:
@@ -116,18 +116,18 @@ class TestPath:
         assert price(tape.alone) > 1.5 * least
 
     def test_it_finds_the_stripes_where_each_alone_does_not(self):
-        said = timeline(PATH)[-1].caption.values
-        assert said["off"] < 0.02 < 0.2 < said["alone"]
+        values = timeline(PATH)[-1].caption.values
+        assert values["off"] < 0.02 < 0.2 < values["alone"]
 
 
 class TestKnobAtAllValues:
     def test_the_map_is_that_of_the_whole_run(self):
-        found = states(WINDOWS)
+        maps = states(WINDOWS)
         for side in (3, 21):
             whole = states(Input(smoothness=0.0, window=side))
             same = [state for state in whole if state.stage is Stage.AGGREGATE][-1]
             k = SIDES.index(side)
-            assert np.array_equal(found[k].disparity, same.disparity)
+            assert np.array_equal(maps[k].disparity, same.disparity)
         priced = states(PRICES)
         whole = states(Input(scene="repeated pattern", pixel=(80, 60)))
         same = [state for state in whole if state.stage is Stage.PATHS][-1]
@@ -146,8 +146,8 @@ class TestKnobAtAllValues:
             assert SIDES[int(np.argmin(share))] == best
 
     def test_the_shadow_is_as_wide_as_the_jumps_differ(self):
-        found = states(BASELINES)
-        for k, state in enumerate(found):
+        maps = states(BASELINES)
+        for k, state in enumerate(maps):
             d = state.disparity[60]
             post = d.max()
             wall = np.median(d[d < d.max() - 1])
@@ -170,21 +170,21 @@ class TestFromAbove:
 
     def test_an_error_moves_the_board(self):
         for k, error in enumerate(ERRORS):
-            said = timeline(NET)[k].caption.values
-            assert said["found"] == pytest.approx(80.0 / (4.0 + error))
+            values = timeline(NET)[k].caption.values
+            assert values["found"] == pytest.approx(80.0 / (4.0 + error))
 
 
 def test_the_curves_of_the_prices_grow_with_the_steps():
-    found = states(PRICES)
+    maps = states(PRICES)
     for k in (0, 4, 10):
         curve = part(timeline(PRICES)[k].scene, "prices/plain wall", Curve)
-        assert np.isfinite(curve.y).tolist() == [one <= k for one in range(11)]
-        assert curve.y[k] == found[k].wrong["plain wall"]
+        assert np.isfinite(curve.y).tolist() == [step <= k for step in range(11)]
+        assert curve.y[k] == maps[k].wrong["plain wall"]
     assert curve.y == pytest.approx(
         [29.6, 24.7, 20.2, 15.5, 9.0, 5.2, 2.2, 0.7, 0.5, 0.5, 0.5], abs=0.05
     )
-    for now in found:  # its pictures are those of the curve
-        assert now.wrong["repeated pattern"] == pytest.approx(100 * now.share)
+    for state in maps:  # its pictures are those of the curve
+        assert state.wrong["repeated pattern"] == pytest.approx(100 * state.share)
 
 
 def test_an_own_pair_of_450_by_375_pixels_is_shown_step_by_step(tmp_path):
@@ -193,10 +193,10 @@ def test_an_own_pair_of_450_by_375_pixels_is_shown_step_by_step(tmp_path):
     for name, shown in (("l.png", picture), ("r.png", np.roll(picture, -20, axis=1))):
         Image.fromarray(shown).save(tmp_path / name)
     params = Input(left=tmp_path / "l.png", right=tmp_path / "r.png", shrink=1, max_disparity=63)
-    found = Timeline(lesson, params).complete()
-    assert found.stopped is None
-    assert len(found) == 78
-    assert np.median(found.states()[-1].disparity[:, 64:]) == pytest.approx(20.0, abs=0.05)
+    run = Timeline(lesson, params).complete()
+    assert run.stopped is None
+    assert len(run) == 78
+    assert np.median(run.states()[-1].disparity[:, 64:]) == pytest.approx(20.0, abs=0.05)
     for stage in ("row", "path", "windows"):
         own = Timeline(lesson, replace(params, stage=stage)).complete()
         assert own.stopped is None, stage

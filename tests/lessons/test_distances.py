@@ -31,9 +31,9 @@ def preset(name):
 
 
 def now(kind, params, step=-1):
-    found = states(params)[step].now
-    assert isinstance(found, kind)
-    return found
+    result = states(params)[step].now
+    assert isinstance(result, kind)
+    return result
 
 
 def goal(params) -> tuple[float, float]:
@@ -129,12 +129,12 @@ def test_outliers_hide_themselves_and_are_found_by_the_closest_half():
 
 def test_the_right_landmark_by_the_ellipse_of_the_measurement():
     seen = [now(Landmarks, replace(preset("stereo"), seed=seed)) for seed in range(4)]
-    assert np.mean([np.mean(one.euclid == one.true) for one in seen]) == pytest.approx(
-        0.60, abs=0.06
-    )
-    assert np.mean([np.mean(one.mahalanobis == one.true) for one in seen]) == pytest.approx(
-        0.95, abs=0.03
-    )
+    assert np.mean(
+        [np.mean(landmarks.euclid == landmarks.true) for landmarks in seen]
+    ) == pytest.approx(0.60, abs=0.06)
+    assert np.mean(
+        [np.mean(landmarks.mahalanobis == landmarks.true) for landmarks in seen]
+    ) == pytest.approx(0.95, abs=0.03)
 
 
 # grids --------------------------------------------------------------------------------------------
@@ -151,14 +151,14 @@ def test_the_right_landmark_by_the_ellipse_of_the_measurement():
     ],
 )
 def test_errors_round_the_wall(params, worst, mean, *, way):
-    found = now(Found, params)
-    assert 100 * found.worst == pytest.approx(worst, abs=0.4)
-    assert 100 * found.mean == pytest.approx(mean, abs=0.4)
+    distances = now(Found, params)
+    assert 100 * distances.worst == pytest.approx(worst, abs=0.4)
+    assert 100 * distances.mean == pytest.approx(mean, abs=0.4)
     d, true = goal(params)
     assert true == pytest.approx(np.hypot(0.3, 0.3) + np.hypot(0.3, 0.5), abs=0.012)
     assert 100 * (d / true - 1) == pytest.approx(way, abs=0.6)
     np.testing.assert_allclose(
-        errors(states(params)[-1]), found.error[np.isfinite(found.error)], atol=1e-12
+        errors(states(params)[-1]), distances.error[np.isfinite(distances.error)], atol=1e-12
     )
 
 
@@ -174,15 +174,17 @@ def test_the_error_along_edges_stays_and_that_of_marching_falls():
 
 
 @pytest.mark.parametrize(
-    ("side", "marching", "said"), [(41, 10.0, "nearer to the truth"), (81, 6.0, "farther off")]
+    ("side", "marching", "words"), [(41, 10.0, "nearer to the truth"), (81, 6.0, "farther off")]
 )
-def test_marching_is_held_against_eight_neighbours_on_the_same_grid(side, marching, said):
+def test_marching_is_held_against_eight_neighbours_on_the_same_grid(side, marching, words):
     params = Params(neighbours="march", grid=side)
-    found = now(Found, params)
-    assert 100 * found.worst == pytest.approx(marching, abs=0.4)
-    assert found.eight == now(Found, Params(grid=side)).worst == pytest.approx(0.082, abs=0.0005)
+    distances = now(Found, params)
+    assert 100 * distances.worst == pytest.approx(marching, abs=0.4)
     assert (
-        f"Ways to 8 neighbours are {said} on this grid"
+        distances.eight == now(Found, Params(grid=side)).worst == pytest.approx(0.082, abs=0.0005)
+    )
+    assert (
+        f"Ways to 8 neighbours are {words} on this grid"
         in caption_of(finished("distances", params)[-1].scene).text
     )
 
@@ -233,8 +235,11 @@ def test_obtuse_triangles_and_their_edges_flipped():
     wrung, flipped = (now(Found, preset(name)) for name in ("wrung", "delaunay"))
     assert (wrung.negative, flipped.negative) == (848, 0)
     off = [
-        [100 * f(np.abs(one.error[np.isfinite(one.error)])) for f in (np.mean, np.median, np.max)]
-        for one in (wrung, flipped)
+        [
+            100 * f(np.abs(distances.error[np.isfinite(distances.error)]))
+            for f in (np.mean, np.median, np.max)
+        ]
+        for distances in (wrung, flipped)
     ]
     np.testing.assert_allclose(off, [[19.9, 20.0, 48.5], [1.45, 1.31, 5.01]], atol=0.06)
     np.testing.assert_array_equal(
@@ -270,7 +275,8 @@ def test_the_time_of_heat():
         now(Found, params) for params in (preset("heat"), preset("early"), presets.LATE)
     )
     assert tuple(
-        round(100 * float(np.nanmean(np.abs(one.error))), 1) for one in (plain, early, late)
+        round(100 * float(np.nanmean(np.abs(distances.error))), 1)
+        for distances in (plain, early, late)
     ) == (
         1.9,
         26.0,
@@ -288,17 +294,17 @@ def test_a_less_regular_mesh_does_not_help_ways_along_edges():
     regular, moved = (now(Found, preset(name)) for name in ("sphere", "jitter"))
     assert 0.045 < moved.mean < regular.mean
     np.testing.assert_allclose(np.linalg.norm(states(preset("jitter"))[0].subject.p, axis=1), 1)
-    for found in (regular, moved):
-        coarse, fine = 10 ** found.study["edges"][1][[0, -1]]
+    for distances in (regular, moved):
+        coarse, fine = 10 ** distances.study["edges"][1][[0, -1]]
         assert fine > 0.6 * coarse  # while its edges are an eighth as long
-        assert 10 ** found.study["heat"][1][-1] < 0.25 * 10 ** found.study["heat"][1][0]
+        assert 10 ** distances.study["heat"][1][-1] < 0.25 * 10 ** distances.study["heat"][1][0]
 
 
 def test_heat_distance_is_no_metric():
-    found = now(Found, preset("heat"))
-    assert found.broken == pytest.approx(0.015, abs=0.0005)
-    assert np.median(found.asymmetry) == pytest.approx(0.014, abs=0.0005)
-    assert found.asymmetry.max() == pytest.approx(0.17, abs=0.005)
+    distances = now(Found, preset("heat"))
+    assert distances.broken == pytest.approx(0.015, abs=0.0005)
+    assert np.median(distances.asymmetry) == pytest.approx(0.014, abs=0.0005)
+    assert distances.asymmetry.max() == pytest.approx(0.17, abs=0.005)
     run = finished("distances", preset("heat"))
     assert [caption_of(run[step].scene).tone for step in (-2, -1)] == [
         "good",
@@ -376,8 +382,8 @@ def test_slots_drive_the_run():
         Params(stage="surface", points=42),
         Params(stage="roll", points=100, k=6),
     ):
-        found = with_slots(params, shortest_distances=hops)[-1].now
-        assert set(np.unique(found.d)) == {0.0, 1.0}
+        distances = with_slots(params, shortest_distances=hops)[-1].now
+        assert set(np.unique(distances.d)) == {0.0, 1.0}
     run = with_slots(
         Params(grid=21, wall=0.0, neighbours="march"),
         eikonal_update=lambda a, b, h: np.minimum(a, b) + h,
@@ -435,9 +441,9 @@ def test_a_click_moves_the_source():
         Params(stage="surface", source=17),
         Params(stage="roll", points=300, source=9),
     ):
-        subject, found = states(params)[-1].subject, now(Found, params)
+        subject, distances = states(params)[-1].subject, now(Found, params)
         assert subject.source == params.source
-        assert found.d[params.source] == found.truth[params.source] == 0
+        assert distances.d[params.source] == distances.truth[params.source] == 0
     assert now(Ball, Params(stage="balls", source=8)).query == 8
 
 

@@ -21,9 +21,9 @@ def last(params) -> State:
 
 
 def found(params) -> Found:
-    now = last(params).now
-    assert isinstance(now, Found)
-    return now
+    distances = last(params).now
+    assert isinstance(distances, Found)
+    return distances
 
 
 @pytest.fixture
@@ -44,18 +44,18 @@ def test_an_own_mesh_is_welded_and_made_two_metres_long(ball):
 
 @pytest.mark.parametrize("time", [-2.0, 0.0, 3.0])
 def test_heat_over_an_own_mesh(ball, time):
-    now = found(Params(stage="surface", mesh=ball, method="heat", time=time))
-    assert now.d.max() == pytest.approx(np.pi, rel=0.15)
+    distances = found(Params(stage="surface", mesh=ball, method="heat", time=time))
+    assert distances.d.max() == pytest.approx(np.pi, rel=0.15)
 
 
 def test_an_own_cloud_has_no_truth(tmp_path):
     p = np.random.default_rng(0).random((400, 3)) * [2, 1, 0]
     np.savetxt(tmp_path / "sheet.xyz", p)
     timeline = Timeline(lesson, Params(stage="roll", cloud=tmp_path / "sheet.xyz", k=8)).complete()
-    now = timeline.states()[-1].now
-    assert isinstance(now, Found)
-    assert not len(now.truth)
-    assert np.isnan(now.worst)
+    distances = timeline.states()[-1].now
+    assert isinstance(distances, Found)
+    assert not len(distances.truth)
+    assert np.isnan(distances.worst)
     caption = caption_of(timeline[-1].scene)
     assert caption.tone == "info"
     assert "Nobody knows the truth" in caption.text
@@ -63,16 +63,16 @@ def test_an_own_cloud_has_no_truth(tmp_path):
 
 
 def test_what_is_refused(tmp_path):
-    few, one, text = tmp_path / "few.xyz", tmp_path / "one.xyz", tmp_path / "words.off"
+    few, same, text = tmp_path / "few.xyz", tmp_path / "one.xyz", tmp_path / "words.off"
     few.write_text("\n".join(f"0 0 {k}" for k in range(20)))
-    one.write_text("\n".join("1 2 3" for _ in range(60)))
+    same.write_text("\n".join("1 2 3" for _ in range(60)))
     text.write_text("no mesh at all")
-    for params, said in (
+    for params, message in (
         (Params(stage="roll", cloud=few), "at least 31"),
-        (Params(stage="roll", cloud=one), "at one place"),
+        (Params(stage="roll", cloud=same), "at one place"),
         (Params(stage="surface", mesh=text), "words.off"),
     ):
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             next(lesson.run(params))
 
 
@@ -82,9 +82,9 @@ def test_pieces_that_no_way_joins(tmp_path):
     )
     two.export(tmp_path / "two.off")
     timeline = Timeline(lesson, Params(stage="surface", mesh=tmp_path / "two.off")).complete()
-    now = timeline.states()[-1].now
-    assert isinstance(now, Found)
-    assert np.isinf(now.d).sum() == 42
+    distances = timeline.states()[-1].now
+    assert isinstance(distances, Found)
+    assert np.isinf(distances.d).sum() == 42
     assert "42 nodes cannot be reached" in caption_of(timeline[-1].scene).text
     heat = found(Params(stage="surface", mesh=tmp_path / "two.off", method="heat"))
     assert np.isfinite(heat.mean)
@@ -95,18 +95,20 @@ def test_pieces_that_no_way_joins(tmp_path):
 
 def test_heat_on_a_scanned_bunny(shared_data):
     params = Params(stage="surface", method="heat", mesh=shared_data / "shapes" / "bunny_npm.ply")
-    now = found(params)
-    assert now.times is not None
-    mean = dict(zip(now.times[0], now.times[1], strict=True))
+    distances = found(params)
+    assert distances.times is not None
+    mean = dict(zip(distances.times[0], distances.times[1], strict=True))
     assert mean[0.0] < 2.5
     assert mean[2.0] > 2 * mean[0.0]
     assert mean[-2.0] > 20  # far too short
 
 
 def test_edges_of_fertility_are_too_long(shared_data):
-    now = found(Params(stage="surface", mesh=shared_data / "curvature" / "fertility.off"))
-    assert 0.03 < now.mean < 0.12
-    assert (now.error[np.isfinite(now.error)] > -2e-3).all()  # beside two points on every edge
+    distances = found(Params(stage="surface", mesh=shared_data / "curvature" / "fertility.off"))
+    assert 0.03 < distances.mean < 0.12
+    assert (
+        distances.error[np.isfinite(distances.error)] > -2e-3
+    ).all()  # beside two points on every edge
 
 
 def test_a_scan_is_thinned_and_joined(shared_data):

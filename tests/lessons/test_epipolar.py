@@ -24,8 +24,8 @@ def states(params: Params) -> tuple[Any, ...]:
     return finished(lesson.name, params).states()
 
 
-def steps_of(found: Iterable[Any]) -> list[Any]:
-    return list(found)
+def steps_of(steps: Iterable[Any]) -> list[Any]:
+    return list(steps)
 
 
 def of(name: str) -> tuple[Any, ...]:
@@ -72,11 +72,11 @@ def test_home_finds_the_motion():
 
 def test_refining_the_pose_helps_more_than_refining_f():
     turned = {route: [] for route in ("eight-point", "refined F", "refined pose")}
-    for route, found in turned.items():
+    for route, degrees in turned.items():
         for seed in range(12):
             *_, last = run(Params(heading=0.0, route=route, seed=seed))  # type: ignore[arg-type]
-            found.append(errors(last))
-    middle = {route: np.median(found, axis=0) for route, found in turned.items()}
+            degrees.append(errors(last))
+    middle = {route: np.median(degrees, axis=0) for route, degrees in turned.items()}
     assert middle["refined pose"][0] < 0.6 * middle["refined F"][0]
     assert middle["refined pose"][1] < 0.6 * middle["refined F"][1]
     assert middle["eight-point"][1] > 1.5
@@ -87,9 +87,9 @@ def test_raw_pixels_miss_by_pixels_and_rank_two_makes_it_worse():
     assert clean(raw[10]) > 3 > 10 * clean(home[10])
     three, two, normal = [], [], []
     for seed in range(10):
-        found = steps_of(run(Params(heading=0.0, normalise=False, route="eight-point", seed=seed)))
-        three.append(clean(found[9]))
-        two.append(clean(found[10]))
+        steps = steps_of(run(Params(heading=0.0, normalise=False, route="eight-point", seed=seed)))
+        three.append(clean(steps[9]))
+        two.append(clean(steps[10]))
         normal.append(clean(steps_of(run(Params(heading=0.0, route="eight-point", seed=seed)))[10]))
     assert np.median(two) > 1.4 * np.median(three) > 4 * np.median(normal)
     assert raw[8].now.singular_values[7] / raw[8].now.singular_values[0] < 1e-5
@@ -123,11 +123,11 @@ def test_a_plane_says_nothing_of_the_motion():
 
 
 def test_a_turn_has_a_rotation_and_no_direction():
-    found = of("turned")
-    assert (errors(found[-1]) or (9, 9))[0] < 1
-    assert max(found[-1].now.in_front) >= 45
-    assert [state.now.stage for state in found[:7]] == [*6 * ["ray"], "equations"]
-    assert np.ptp(found[5].now.uv_second, axis=0).max() < 1e-6
+    steps = of("turned")
+    assert (errors(steps[-1]) or (9, 9))[0] < 1
+    assert max(steps[-1].now.in_front) >= 45
+    assert [state.now.stage for state in steps[:7]] == [*6 * ["ray"], "equations"]
+    assert np.ptp(steps[5].now.uv_second, axis=0).max() < 1e-6
     assert end("turned").tone == "wrong"
     assert "made up" in end("turned").text
 
@@ -144,8 +144,8 @@ def test_a_short_baseline_costs_direction_and_depth():
 
 
 def test_far_away_there_is_a_rotation_and_hardly_more():
-    found = {"far": [], "home": []}
-    for name, ends in found.items():
+    rows = {"far": [], "home": []}
+    for name, ends in rows.items():
         for seed in range(12):
             last = steps_of(run(replace(lesson.preset(name).params, seed=seed)))[-1]
             z = last.views.p_first[:, 2]
@@ -166,7 +166,7 @@ def test_far_away_there_is_a_rotation_and_hardly_more():
                     z.min(),
                 )
             )
-    far, home = (np.median(found[name], axis=0) for name in ("far", "home"))
+    far, home = (np.median(rows[name], axis=0) for name in ("far", "home"))
     assert far[0] < 1.3 * home[0] < 0.4  # degrees of rotation: as good
     assert far[1] > 45 > 20 * home[1]  # of direction
     assert far[2] < 0.8 < 1 == home[2]  # of the points in front
@@ -175,7 +175,7 @@ def test_far_away_there_is_a_rotation_and_hardly_more():
     assert (
         1.2 < far[5] < 1.8 < 40 < home[5]
     )  # px of parallax: little more than the noise of both pixels, 0.7
-    assert min(row[6] for row in found["far"]) > 180  # baselines
+    assert min(row[6] for row in rows["far"]) > 180  # baselines
     points = of("far")[16]
     assert points.now.stage == "points"
     assert max(points.now.in_front) < 60
@@ -227,8 +227,8 @@ def test_ahead_the_epipole_is_in_the_picture_and_rows_cannot_be_had():
     assert isinstance(scene["first/epipole"], Points)
     assert "torn" in end("forward").text
     assert end("forward").tone == "good"  # the motion is right all the same
-    found = at("oblique", "rectified").now.rectification
-    assert 3 < growth(found.H_first, (480, 320)) < 40
+    rectification = at("oblique", "rectified").now.rectification
+    assert 3 < growth(rectification.H_first, (480, 320)) < 40
     assert "times as large" in end("oblique").text
 
 
@@ -365,12 +365,12 @@ def test_rectified_lines_are_level():
 def test_ellipsoids_are_longer_the_shorter_the_baseline():
     lengths = []
     for baseline in (1.0, 0.1):
-        found = next(
+        points = next(
             state
             for state in run(Params(baseline=baseline, noise=0.05))
             if state.now.stage == "points"
         )
-        shown = draw(found)["uncertainty"]
+        shown = draw(points)["uncertainty"]
         assert isinstance(shown, Segments)
         lengths.append(np.linalg.norm(shown.ends[:, 0] - shown.ends[:, 1], axis=1).max())
     assert lengths[1] > 3 * lengths[0]

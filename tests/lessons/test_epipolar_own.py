@@ -16,10 +16,12 @@ from workbench.scene import Picture, caption_of
 
 def fountain(folder, tmp_path, **left_out: bool):
     """The fountain's matches without the outliers, as a file; with pictures."""
-    found = np.load(folder / "ransac" / "fountain-P11" / "gt_and_matches.npz")
-    good = np.abs(found["gt_sampson"]) < 1
-    arrays = {name: found[name] for name in ("K1", "K2", "R_rel", "t_rel") if name not in left_out}
-    np.savez(tmp_path / "fountain.npz", x1=found["x1"][good], x2=found["x2"][good], **arrays)
+    archive = np.load(folder / "ransac" / "fountain-P11" / "gt_and_matches.npz")
+    good = np.abs(archive["gt_sampson"]) < 1
+    arrays = {
+        name: archive[name] for name in ("K1", "K2", "R_rel", "t_rel") if name not in left_out
+    }
+    np.savez(tmp_path / "fountain.npz", x1=archive["x1"][good], x2=archive["x2"][good], **arrays)
     first, second = (
         folder / "ransac" / "fountain-P11" / f"{n}_third.jpg" for n in ("0004", "0005")
     )
@@ -27,8 +29,8 @@ def fountain(folder, tmp_path, **left_out: bool):
 
 
 def test_the_fountain(shared_data, tmp_path):
-    found: list[Any] = list(run(Params(**fountain(shared_data, tmp_path))))
-    last = found[-1]
+    states: list[Any] = list(run(Params(**fountain(shared_data, tmp_path))))
+    last = states[-1]
     turn, direction = errors(last) or (9, 9)
     assert turn < 0.05
     assert direction < 0.2
@@ -45,7 +47,7 @@ def test_the_fountain(shared_data, tmp_path):
         errors(list(run(Params(**fountain(shared_data, tmp_path), route=route)))[-1])
         for route in ("eight-point", "refined F")
     ]  # type: ignore[arg-type]
-    assert all(one is not None and one[1] > 2 * direction for one in routes)
+    assert all(error is not None and error[1] > 2 * direction for error in routes)
 
 
 def test_without_a_true_motion_nobody_is_judged(shared_data, tmp_path):
@@ -53,26 +55,26 @@ def test_without_a_true_motion_nobody_is_judged(shared_data, tmp_path):
     (tmp_path / "k.txt").write_text("919.8267 920.4869 506.5633 334.9421")
     with pytest.raises(InputError, match="has no K"):
         next(run(Params(**arrays)))
-    found: list[Any] = list(run(Params(**arrays, intrinsics=tmp_path / "k.txt")))
-    assert found[0].now.stage == "equations"
-    assert {caption_of(draw(state)).tone for state in found} == {"info"}
-    assert "made up" in caption_of(draw(next(s for s in found if s.now.stage == "points"))).text
+    states: list[Any] = list(run(Params(**arrays, intrinsics=tmp_path / "k.txt")))
+    assert states[0].now.stage == "equations"
+    assert {caption_of(draw(state)).tone for state in states} == {"info"}
+    assert "made up" in caption_of(draw(next(s for s in states if s.now.stage == "points"))).text
 
 
 def test_matches_alone_have_white_pictures(tmp_path):
     views = next(run(Params())).views
     np.savetxt(tmp_path / "m.txt", views.matches)
     (tmp_path / "k.txt").write_text("420 420 239.5 159.5")
-    found: list[Any] = list(
+    states: list[Any] = list(
         run(Params(own_matches=tmp_path / "m.txt", intrinsics=tmp_path / "k.txt"))
     )
-    T = found[-1].now.T_second_first
+    T = states[-1].now.T_second_first
     true = views.T_second_first
     assert true is not None
     np.testing.assert_allclose(T[:3, :3], true[:3, :3], atol=0.02)
-    scene = draw(found[0])
+    scene = draw(states[0])
     assert isinstance(scene["first/picture"], Picture)
-    assert isinstance(draw(found[-1])["second/rectified"], Picture)
+    assert isinstance(draw(states[-1])["second/rectified"], Picture)
 
 
 @pytest.mark.parametrize(

@@ -34,9 +34,9 @@ def final(*args: Any, **functions: Any) -> Any:
 
 
 def green(params) -> float:
-    found = share(next(s.now for s in states(params) if s.now.phase in ("kept", "matched")))
-    assert found is not None
-    return found
+    right_share = share(next(s.now for s in states(params) if s.now.phase in ("kept", "matched")))
+    assert right_share is not None
+    return right_share
 
 
 def test_the_default_comes_home_with_a_quarter_of_its_matches_right():
@@ -66,9 +66,9 @@ def test_flipped_normals_leave_few_matches():
 
 
 def test_random_signs_in_one_scan_are_worse_than_in_both():
-    one, both = lesson.preset("random-one").params, lesson.preset("random").params
-    assert kept_count(states(one)) < 20
-    assert states(one)[-1].now.T_target_source is None
+    one_scan, both = lesson.preset("random-one").params, lesson.preset("random").params
+    assert kept_count(states(one_scan)) < 20
+    assert states(one_scan)[-1].now.T_target_source is None
     assert kept_count(states(both)) > 190
     assert 0.1 < green(both) < 0.2 < green(HOME)
     assert home(states(both)[-1].now)
@@ -98,14 +98,14 @@ def test_noise_of_a_centimetre_still_comes_home():
 
 def test_patches_forgive_small_turns_only():
     patches = lesson.preset("patches").params
-    found = {turn: green(replace(patches, turn=float(turn))) for turn in (0, 10, 15, 20)}
-    assert found == {
+    shares = {turn: green(replace(patches, turn=float(turn))) for turn in (0, 10, 15, 20)}
+    assert shares == {
         turn: pytest.approx(share, abs=0.01)
         for turn, share in {0: 0.9, 10: 0.87, 15: 0.75, 20: 0.33}.items()
     }
     assert green(TURNED) < 0.05
-    question = next(one for one in lesson.questions if one.name == "thirty")
-    assert all(question.reply(100 * share) for share in found.values())
+    question = next(q for q in lesson.questions if q.name == "thirty")
+    assert all(question.reply(100 * share) for share in shares.values())
     assert kept_share(states(TURNED)) == pytest.approx(100 * green(TURNED))
 
 

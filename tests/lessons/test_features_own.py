@@ -61,13 +61,13 @@ def test_own_scans_that_cannot_be_used_are_refused(own, tmp_path):
     for name, p in clouds.items():
         np.savez(tmp_path / f"{name}.npz", p=p)
     (tmp_path / "text.xyz").write_text("these are no points")
-    for name, said in (
+    for name, message in (
         ("point.npz", "one place"),
         ("few.npz", "20 at least"),
         ("many.npz", "raise voxel"),
         ("text.xyz", r"text\.xyz"),
     ):
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             final(
                 replace(
                     own,
@@ -154,16 +154,16 @@ def kept_near_lines(F, uv, descriptors, *, ratio):
     their true line.
     """
     near = nearest_both_ways(*descriptors)
-    found = {}
+    kept = {}
     for how in ("nearest", "ratio", "mutual", "both"):
         first, second = filtered(near, how, ratio).T
         a, b = (np.column_stack([at, np.ones(len(at))]) for at in (uv[0][first], uv[1][second]))
         n = a @ F.T
-        found[how] = (
+        kept[how] = (
             np.mean(np.abs((n * b).sum(axis=1)) < 2 * np.hypot(n[:, 0], n[:, 1])),
             len(first),
         )
-    return found
+    return kept
 
 
 def test_corners_of_the_fountain_lie_on_each_others_lines_and_sift_is_no_better(shared_data):
@@ -176,9 +176,9 @@ def test_corners_of_the_fountain_lie_on_each_others_lines_and_sift_is_no_better(
     assert of["both"][0] > 0.9 > of["ratio"][0] > of["nearest"][0] + 0.1
     assert of["both"][0] > of["mutual"][0] > of["nearest"][0] + 0.1
     patch_share, patch_count = kept_near_lines(F, uv, described, ratio=0.8)["both"]
-    found = [sift(image) for image in images]
+    keypoints = [sift(image) for image in images]
     sift_share, sift_count = kept_near_lines(
-        F, [s.uv for s in found], [s.descriptors for s in found], ratio=0.8
+        F, [s.uv for s in keypoints], [s.descriptors for s in keypoints], ratio=0.8
     )["both"]
     assert patch_share == pytest.approx(0.97, abs=0.005)
     assert sift_share == pytest.approx(0.96, abs=0.005)

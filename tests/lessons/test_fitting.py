@@ -42,14 +42,14 @@ def tone(name: str) -> str:
 
 
 def test_home_goes_down_and_says_what_it_is_worth():
-    found = moments("home")
-    kept = [now.cost for now in found if now.phase in ("start", "accepted")]
+    descent = moments("home")
+    kept = [moment.cost for moment in descent if moment.phase in ("start", "accepted")]
     assert kept[:4] == pytest.approx([3.73, 1.04, 0.0379, 0.0320], rel=5e-3)
-    assert found[-1].iteration == 5
-    assert found[-1].unknown[2] == pytest.approx(1.019, abs=1e-3)
+    assert descent[-1].iteration == 5
+    assert descent[-1].unknown[2] == pytest.approx(1.019, abs=1e-3)
     assert kept[-1] == pytest.approx(least(of("home")[0]), rel=1e-4)
     assert np.sqrt(last("home").covariance[2, 2]) == pytest.approx(0.032, abs=1e-3)
-    assert [now.phase for now in found[:4]] == ["start", "linearised", "tried", "accepted"]
+    assert [moment.phase for moment in descent[:4]] == ["start", "linearised", "tried", "accepted"]
     assert of("home")[10].now.radii.size == 0  # where the page sends a reader for the covariance
 
 
@@ -68,19 +68,19 @@ def test_where_neighbours_err_alike_it_does_not():
 
 
 def test_on_twenty_degrees_radii_scatter_to_one_side():
-    now = last("twenty")
-    low, high = np.percentile(now.radii, [5, 95])
+    spread = last("twenty")
+    low, high = np.percentile(spread.radii, [5, 95])
     assert (low, high) == (pytest.approx(0.53, abs=0.05), pytest.approx(8.0, abs=2.5))
-    assert high - np.median(now.radii) > 5 * (np.median(now.radii) - low)
+    assert high - np.median(spread.radii) > 5 * (np.median(spread.radii) - low)
     assert tone("twenty") == "wrong"
 
 
 def test_the_escape_is_a_straight_line_of_equal_cost():
-    found, p = moments("escape"), of("escape")[0].subject.p
-    assert (np.diff([now.cost for now in found]) <= 0).all()
-    assert found[-1].unknown[2] > 40_000
-    assert found[-1].cost == pytest.approx(straight(p), rel=1e-3)
-    assert found[-1].cost > 15 * least(of("escape")[0])
+    descent, p = moments("escape"), of("escape")[0].subject.p
+    assert (np.diff([moment.cost for moment in descent]) <= 0).all()
+    assert descent[-1].unknown[2] > 40_000
+    assert descent[-1].cost == pytest.approx(straight(p), rel=1e-3)
+    assert descent[-1].cost > 15 * least(of("escape")[0])
     scene = lesson.draw(of("escape")[-1])
     line, circle = scene["straight"], scene["estimate"]
     assert isinstance(line, Segments)
@@ -97,15 +97,17 @@ def test_undamped_it_jumps():
     """From one start: the first step of Gauss-Newton raises the sum eightfold, and in five the
     circle is a line.
     """
-    kept = [now for now in moments("jumps") if now.phase in ("start", "accepted")]
-    assert [now.cost for now in kept[:4]] == pytest.approx([147.8, 1198.6, 7.677, 6.385], rel=1e-3)
+    kept = [moment for moment in moments("jumps") if moment.phase in ("start", "accepted")]
+    assert [moment.cost for moment in kept[:4]] == pytest.approx(
+        [147.8, 1198.6, 7.677, 6.385], rel=1e-3
+    )
     assert kept[4].unknown[2] == pytest.approx(427e3, rel=2e-3)
     assert moments("jumps")[-1].stop is Stop.SINGULAR
     assert tone("jumps") == "wrong"
 
 
 def test_damped_it_comes_home_from_there():
-    end = next(now for now in moments("damped") if now.stop)
+    end = next(moment for moment in moments("damped") if moment.stop)
     assert (end.iteration, end.stop) == (6, Stop.CONVERGED)
     assert end.cost == pytest.approx(0.0320, abs=5e-5)
     assert abs(moments("damped")[0].unknown - moments("jumps")[0].unknown).max() == 0.0
@@ -120,8 +122,10 @@ def test_a_radius_below_zero_is_nonsense_and_said_to_be():
 
 
 def share_home(name: str) -> float:
-    now = last(name)
-    return float((np.abs(np.abs(now.now.unknowns) - np.abs(now.best)).max(axis=1) < 0.02).mean())
+    basin = last(name)
+    return float(
+        (np.abs(np.abs(basin.now.unknowns) - np.abs(basin.best)).max(axis=1) < 0.02).mean()
+    )
 
 
 def test_basins():
@@ -131,27 +135,27 @@ def test_basins():
 
 
 def test_closed_forms_over_arcs():
-    now = last("short-arc")
-    kasa = dict(zip(now.arcs, (row[0] for row in now.medians), strict=True))
+    rivals = last("short-arc")
+    kasa = dict(zip(rivals.arcs, (row[0] for row in rivals.medians), strict=True))
     assert [kasa[arc] for arc in (90, 60, 45, 30)] == pytest.approx(
         [0.96, 0.83, 0.60, 0.26], abs=0.02
     )
     others = np.array(
-        [row[1:] for arc, row in zip(now.arcs, now.medians, strict=True) if arc >= 30]
+        [row[1:] for arc, row in zip(rivals.arcs, rivals.medians, strict=True) if arc >= 30]
     )
     assert np.abs(others - 1).max() < 0.05
 
 
 def test_biases_all_round():
-    now = last("bias")
-    of_name = dict(zip(now.circles, now.medians[-1], strict=True))
+    rivals = last("bias")
+    of_name = dict(zip(rivals.circles, rivals.medians[-1], strict=True))
     for name, theory in (("geometric", 0.005), ("Taubin", 0.010), ("Pratt", 0.020), ("Hyper", 0.0)):
         assert of_name[name] - 1 == pytest.approx(theory, abs=0.0017)
 
 
 def test_a_coin():
-    now = last("coin")
-    of_name = dict(zip(now.circles, now.medians[-1], strict=True))
+    rivals = last("coin")
+    of_name = dict(zip(rivals.circles, rivals.medians[-1], strict=True))
     assert of_name["Kåsa"] == pytest.approx(0.936, abs=0.01)
     assert of_name["Taubin"] == pytest.approx(0.992, abs=0.01)
     assert of_name["geometric"] == pytest.approx(0.995, abs=0.01)
@@ -169,22 +173,22 @@ def test_over_many_coins_kasas_is_small_and_the_others_are_not():
         (46, 260),
         (114, 266),
     ]
-    found = []
+    medians = []
     for coin in coins:
         *_, end = run(Params(stage="coin", arc=60.0, coin=coin))
         assert not isinstance(end.now, Walked)
-        found.append(end.now.medians[-1])  # type: ignore[union-attr]
-    kasa, _, taubin, _, geometric = np.median(found, axis=0)
+        medians.append(end.now.medians[-1])  # type: ignore[union-attr]
+    kasa, _, taubin, _, geometric = np.median(medians, axis=0)
     assert kasa < 0.97
     assert abs(taubin - 1) < 0.025
     assert abs(geometric - 1) < 0.025
 
 
 def test_a_line_by_three_distances():
-    now = last("line")
-    assert np.median(now.angles["upright"]) == pytest.approx(57.1, abs=0.6)
-    assert np.median(now.angles["perpendicular"]) == pytest.approx(60, abs=0.5)
-    assert np.median(now.angles["level"]) > 60.3
+    lines = last("line")
+    assert np.median(lines.angles["upright"]) == pytest.approx(57.1, abs=0.6)
+    assert np.median(lines.angles["perpendicular"]) == pytest.approx(60, abs=0.5)
+    assert np.median(lines.angles["level"]) > 60.3
 
 
 def test_the_plane_turns_on_edge_above_a_quarter():
@@ -218,8 +222,8 @@ def test_losses_on_one_plane():
 def test_gauss_newton_is_quick_where_residuals_are_small():
     little = replace(LARGE, noise=Params().noise)
     small, large = (
-        [np.abs(now.unknown - found[0].subject.best).max() for now in kept(found)]
-        for found in (states(little), states(LARGE))
+        [np.abs(moment.unknown - descent[0].subject.best).max() for moment in kept(descent)]
+        for descent in (states(little), states(LARGE))
     )
     assert small[3] / small[2] < 0.005
     assert 0.05 < large[4] / large[3] < 0.4
@@ -227,10 +231,10 @@ def test_gauss_newton_is_quick_where_residuals_are_small():
     assert iterations_to(states(little), 1e-5) == 3
 
 
-def kept(found: tuple[Any, ...]) -> list[Any]:
+def kept(descent: tuple[Any, ...]) -> list[Any]:
     return [
         s.now.now
-        for s in found
+        for s in descent
         if isinstance(s.now, Walked) and s.now.now.phase in ("start", "accepted")
     ]
 
@@ -272,8 +276,8 @@ def test_answers_are_read_off_the_run():
 
 
 def end_of(params: Params, **slots: Any) -> Any:
-    found = [state for state in run(params, **slots) if isinstance(state.now, Walked)]
-    return found[-1]
+    walked = [state for state in run(params, **slots) if isinstance(state.now, Walked)]
+    return walked[-1]
 
 
 def test_a_wrong_linear_problem_ends_elsewhere():
@@ -334,9 +338,9 @@ def test_feet_lie_on_the_shape_and_tangents_touch_it():
 
 def test_the_ellipse_holds_most_centres_measured_anew():
     state = of("repetition")[-1]
-    now = state.now
-    off = now.centers - now.centers.mean(axis=0)
-    inside = np.einsum("ki,ij,kj->k", off, np.linalg.inv(now.covariance[:2, :2]), off) < 2.448**2
+    spread = state.now
+    off = spread.centers - spread.centers.mean(axis=0)
+    inside = np.einsum("ki,ij,kj->k", off, np.linalg.inv(spread.covariance[:2, :2]), off) < 2.448**2
     assert inside.mean() > 0.9
     scene = lesson.draw(state)
     assert isinstance(scene["table"], Table)
@@ -351,8 +355,8 @@ def test_the_coins_rim_lies_on_the_photograph():
     scene = lesson.draw(of("coin")[0])
     picture, rim = scene["photograph"], scene["rim"]
     assert isinstance(rim, Points)
-    found = of("coin")[0].subject.rim
-    uv = found.center + found.radius * rim.p[:, :2] * [1, -1]
+    coin = of("coin")[0].subject.rim
+    uv = coin.center + coin.radius * rim.p[:, :2] * [1, -1]
     np.testing.assert_allclose(picture.places(uv)[:, :2], rim.p[:, :2], atol=1e-9)  # type: ignore[union-attr]
 
 

@@ -29,23 +29,23 @@ def written(folder: Path, p: np.ndarray, name: str = "points.csv") -> Path:
 def test_an_own_rim_keeps_its_unit(tmp_path):
     rng = np.random.default_rng(0)
     p = 300 + 12.0 * arc_points(np.radians(120), 80) + 0.1 * rng.normal(size=(80, 2))
-    found = steps(Params(cloud=written(tmp_path, p), cloud_unit="mm"))
-    ended = [state for state in found if isinstance(state.now, Walked)][-1]
+    states = steps(Params(cloud=written(tmp_path, p), cloud_unit="mm"))
+    ended = [state for state in states if isinstance(state.now, Walked)][-1]
     assert ended.now.now.unknown[2] * ended.subject.scale == pytest.approx(0.012, rel=0.02)
     text = caption_of(lesson.draw(ended)).text
     assert "R = 1" in text
     assert " mm" in text
-    assert "drawn anew from the points" in caption_of(lesson.draw(found[-1])).text
-    assert caption_of(lesson.draw(found[-1])).tone == "good"
+    assert "drawn anew from the points" in caption_of(lesson.draw(states[-1])).text
+    assert caption_of(lesson.draw(states[-1])).tone == "good"
 
 
 @pytest.mark.parametrize(("shape", "places"), [("sphere", cap_points), ("cylinder", pipe_points)])
 def test_own_points_in_space(tmp_path, shape, places):
     p = 5 + 2 * places(np.radians(200), 200) + 0.01 * np.random.default_rng(0).normal(size=(200, 3))
-    found = steps(
+    states = steps(
         Params(shape=shape, cloud=written(tmp_path, p), start=(0.2, 0.1, 0.0), start_tilt=20.0)
     )
-    ended = [state for state in found if isinstance(state.now, Walked)][-1]
+    ended = [state for state in states if isinstance(state.now, Walked)][-1]
     assert ended.now.now.unknown[-1] * ended.subject.scale == pytest.approx(2.0, rel=0.02)
 
 
@@ -138,7 +138,7 @@ def test_a_kinect_plane_has_errors_that_are_alike(shared_data):
 
 def test_a_kinect_scan_in_the_lesson(shared_data):
     path = shared_data / "ransac" / "capture0001.pcd"
-    found = steps(Params(stage="robust", loss="Huber then Tukey", cloud=path, noise=0.01))
-    assert found[-1].now.last
-    assert np.isnan(found[-1].plane_errors[0])
-    assert caption_of(lesson.draw(found[-1])).tone == "info"
+    states = steps(Params(stage="robust", loss="Huber then Tukey", cloud=path, noise=0.01))
+    assert states[-1].now.last
+    assert np.isnan(states[-1].plane_errors[0])
+    assert caption_of(lesson.draw(states[-1])).tone == "info"

@@ -29,9 +29,9 @@ def preset(name):
 
 
 def now(kind, params, step=-1):
-    found = states(params)[step].now
-    assert isinstance(found, kind)
-    return found
+    result = states(params)[step].now
+    assert isinstance(result, kind)
+    return result
 
 
 def cut(params, step=-1) -> Cut:
@@ -49,11 +49,11 @@ def right(params, step=-1) -> int:
 
 def test_neighbour_is_not_mutual():
     grown = [state.now for state in states(preset("one-way"))]
-    assert [one.k for one in grown] == [1, 2, 3, 4, 5, 6]
+    assert [graph.k for graph in grown] == [1, 2, 3, 4, 5, 6]
     np.testing.assert_allclose(
         [grown[k].one_way for k in (0, 2, 5)], [0.391, 0.248, 0.179], atol=0.002
     )
-    assert [one.count for one in grown[:3]] == [457, 73, 1]
+    assert [graph.count for graph in grown[:3]] == [457, 73, 1]
     assert round(grown[2].one_way * 4500) == 1114
     mutual = dataclasses.replace(preset("one-way"), k=3, join="mutual")
     assert now(Grown, mutual).count == 227
@@ -61,10 +61,10 @@ def test_neighbour_is_not_mutual():
 
 def test_one_way_edges_are_drawn_apart():
     scene = finished("graphs", preset("one-way"))[0].scene
-    both, one = scene["edges"], scene["one-way edges"]
+    both, one_way = scene["edges"], scene["one-way edges"]
     assert isinstance(both, Segments)
-    assert isinstance(one, Segments)
-    assert (len(both.ends), len(one.ends)) == (
+    assert isinstance(one_way, Segments)
+    assert (len(both.ends), len(one_way.ends)) == (
         457,
         1043 - 457,
     )  # as many pairs as components with one neighbour each
@@ -113,17 +113,20 @@ def test_without_a_bridge_the_constant_is_taken_out_and_the_pieces_are_left():
     cosines = []
     for numbering in range(5):
         params = dataclasses.replace(base, numbering=numbering)
-        found = cut(params, SIGN)
-        assert found.eigenvalues[1] == pytest.approx(0, abs=1e-12)
-        assert abs(found.fiedler.sum()) < 1e-9
-        np.testing.assert_allclose(np.abs(found.fiedler), 1 / np.sqrt(200), atol=1e-9)
-        assert (found.side.sum(), found.cut, right(params, SIGN), right(params)) == (
+        solution = cut(params, SIGN)
+        assert solution.eigenvalues[1] == pytest.approx(0, abs=1e-12)
+        assert abs(solution.fiedler.sum()) < 1e-9
+        np.testing.assert_allclose(np.abs(solution.fiedler), 1 / np.sqrt(200), atol=1e-9)
+        assert (solution.side.sum(), solution.cut, right(params, SIGN), right(params)) == (
             100,
             0,
             200,
             200,
         )
-        L = np.diag(np.asarray(found.adjacency.sum(axis=1)).ravel()) - found.adjacency.toarray()
+        L = (
+            np.diag(np.asarray(solution.adjacency.sum(axis=1)).ravel())
+            - solution.adjacency.toarray()
+        )
         cosines.append(abs(np.linalg.eigh(L)[1][:, 1].sum()) / np.sqrt(200))
     assert max(cosines) > 0.1
     assert "0 twice" in caption_of(finished("graphs", base)[1].scene).text
@@ -153,9 +156,9 @@ def test_equal_eigenvalues_turn_the_cut_with_the_numbering():
 
 
 def test_numbering_changes_nothing_where_eigenvalues_are_apart():
-    one, other = (cut(Params(numbering=n)) for n in (0, 7))
-    assert one.cut == other.cut
-    assert one.conductance == pytest.approx(other.conductance)
+    first, other = (cut(Params(numbering=n)) for n in (0, 7))
+    assert first.cut == other.cut
+    assert first.conductance == pytest.approx(other.conductance)
 
 
 def test_the_club():
@@ -218,10 +221,10 @@ def test_truth_stands_beside_the_eigenvalues_where_it_is_known():
         Params(graph="grid", stage="spectrum"),
     ):
         scene = finished("graphs", params)[-1].scene
-        found, true = scene["eigenvalues"], scene["true eigenvalues"]
-        assert isinstance(found, Curve)
+        computed, true = scene["eigenvalues"], scene["true eigenvalues"]
+        assert isinstance(computed, Curve)
         assert isinstance(true, Curve)
-        np.testing.assert_allclose(found.y, true.y, atol=1e-8)
+        np.testing.assert_allclose(computed.y, true.y, atol=1e-8)
     assert (
         "true eigenvalues"
         not in finished("graphs", Params(graph="karate", stage="spectrum"))[-1].scene
@@ -304,7 +307,7 @@ def test_training_two_layers_and_eight():
 def test_a_hexagon_and_two_triangles_have_one_readout():
     state = states(preset("same"))[-1]
     assert isinstance(state.now, Layer)
-    sums = [state.now.features[state.subject.classes == one].sum(axis=0) for one in (0, 1)]
+    sums = [state.now.features[state.subject.classes == label].sum(axis=0) for label in (0, 1)]
     np.testing.assert_allclose(*sums, rtol=1e-9)
     assert np.abs(sums[0]).max() > 0
 
@@ -360,15 +363,15 @@ def test_answers_without_numbers_are_told():
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"join": "directed"}, "set join to union or mutual"),
         ({"laplacian": "cotangent"}, "cotangents need triangles"),
         ({"stage": "smooth", "k": 1, "join": "mutual"}, "no mean to move to"),
     ],
 )
-def test_what_cannot_be_is_said(changes, said):
-    with pytest.raises(InputError, match=said):
+def test_what_cannot_be_is_said(changes, message):
+    with pytest.raises(InputError, match=message):
         next(lesson.run(Params(**changes)))
 
 

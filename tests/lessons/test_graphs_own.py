@@ -26,9 +26,9 @@ def last(params) -> State:
 
 
 def cut_of(params) -> Cut:
-    now = last(params).now
-    assert isinstance(now, Cut)
-    return now
+    cut = last(params).now
+    assert isinstance(cut, Cut)
+    return cut
 
 
 @pytest.fixture
@@ -47,14 +47,15 @@ def test_an_edge_list_is_the_graph_that_it_lists(friends):
         for step in Timeline(lesson, Params(graph="karate")).complete().known()
         if step.state.last
     )
-    now = timeline.states()[-1].now
-    assert isinstance(now, Cut)
+    cut = timeline.states()[-1].now
+    assert isinstance(cut, Cut)
     assert isinstance(ours, Cut)
-    assert now.conductance == pytest.approx(ours.conductance)
+    assert cut.conductance == pytest.approx(ours.conductance)
     assert measures.right(timeline.states()[-1]) is None  # nobody knows
     assert caption_of(timeline[9].scene).tone == "info"
     assert not any(
-        isinstance(one, Scalar) and one.chart == "Right" for one in timeline[9].scene.values()
+        isinstance(primitive, Scalar) and primitive.chart == "Right"
+        for primitive in timeline[9].scene.values()
     )
     table = (
         Timeline(lesson, Params(edges=friends, stage="network")).complete()[3].scene["sum table"]
@@ -87,17 +88,17 @@ def test_an_own_mesh_is_welded_and_made_two_metres_long(tmp_path):
 
 
 def test_what_is_refused(tmp_path, friends):
-    few, one = tmp_path / "few.xyz", tmp_path / "one.xyz"
+    few, same = tmp_path / "few.xyz", tmp_path / "one.xyz"
     few.write_text("\n".join(f"0 0 {k}" for k in range(20)))
-    one.write_text("\n".join("1 2 3" for _ in range(30)))
-    for params, said in (
+    same.write_text("\n".join("1 2 3" for _ in range(30)))
+    for params, message in (
         (Params(edges=friends, cloud=few), "one own file at a time"),
         (Params(cloud=few), "at least 21"),
-        (Params(cloud=one), "at one place"),
+        (Params(cloud=same), "at one place"),
         (Params(edges=few), "text files"),
         (Params(edges=friends, laplacian="cotangent"), "need triangles"),
     ):
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             next(lesson.run(params))
 
 
@@ -121,8 +122,8 @@ def test_scanned_meshes(shared_data, name, genus):
 
 def test_a_scanned_mesh_is_cut_and_smoothed(shared_data):
     mesh = shared_data / "shapes" / "bunny_npm.ply"
-    now = cut_of(Params(mesh=mesh))
-    assert now.conductance == now.conductances.min() < 0.05
+    cut = cut_of(Params(mesh=mesh))
+    assert cut.conductance == cut.conductances.min() < 0.05
     shrunk, kept = (
         measures.volume_share(last(Params(mesh=mesh, stage="smooth", filter=how)))
         for how in ("laplace", "taubin")

@@ -47,29 +47,29 @@ END = -1 - len(ANGLES)  # the last step of ICP itself, before the tries
 
 class TestPresets:
     def test_home(self):
-        found = preset("home")
-        assert found[0].right < 0.03
-        assert rmse_falls([one.look.now for one in found])
-        assert rmse_falls([one.look.now for one in states(HOME)])  # also when the tries follow
-        assert end(found).icp.stop is Stop.CONVERGED
-        assert end(found).error.rotation < 0.5
-        turns = [s.turned for s in found[1:40:2]]
+        steps = preset("home")
+        assert steps[0].right < 0.03
+        assert rmse_falls([step.look.now for step in steps])
+        assert rmse_falls([step.look.now for step in states(HOME)])  # also when the tries follow
+        assert end(steps).icp.stop is Stop.CONVERGED
+        assert end(steps).error.rotation < 0.5
+        turns = [s.turned for s in steps[1:40:2]]
         assert min(turns) > 0.5  # "a degree or so"
         assert max(turns) < 2.0
 
     def test_far(self):
-        found = preset("far")
-        assert rmse_falls([one.look.now for one in found])
-        assert end(found).icp.stop is Stop.CONVERGED
-        assert end(found).error.rotation > 150
-        assert caption_of(found[-1].scene).tone == "wrong"
+        steps = preset("far")
+        assert rmse_falls([step.look.now for step in steps])
+        assert end(steps).icp.stop is Stop.CONVERGED
+        assert end(steps).error.rotation > 150
+        assert caption_of(steps[-1].scene).tone == "wrong"
         assert caption(lesson.preset("far").params, END).tone == "info"  # it is meant to be wrong
         assert caption(Params(start_angle=121.0), END).tone == "wrong"
 
     def test_the_sweep_has_starts_from_which_it_comes_home_and_others(self):
         sweep = lesson.sweeps[0]
-        found = [end(until_stop(params)).home for params in lesson.swept(sweep)]
-        assert found == [angle < 100 for angle in sweep.values]
+        came_home = [end(until_stop(params)).home for params in lesson.swept(sweep)]
+        assert came_home == [angle < 100 for angle in sweep.values]
 
     def test_plane_takes_a_sixth_of_the_iterations(self):
         slow, fast = end(preset("home")).icp.iteration, end(preset("plane")).icp.iteration
@@ -78,9 +78,9 @@ class TestPresets:
         assert end(preset("plane")).home
 
     def test_symmetric(self):
-        found = preset("symmetric")
-        assert end(found).error.rotation == pytest.approx(90, abs=2)
-        assert end(found).icp.rmse < end(until_stop(replace(HOME, gate="all"))).icp.rmse
+        steps = preset("symmetric")
+        assert end(steps).error.rotation == pytest.approx(90, abs=2)
+        assert end(steps).icp.rmse < end(until_stop(replace(HOME, gate="all"))).icp.rmse
 
     def test_slide(self):
         last = end(preset("slide"))
@@ -93,9 +93,9 @@ class TestPresets:
 
     @pytest.mark.parametrize("name", ["slide", "symmetric"])
     def test_a_shape_that_fits_itself_elsewhere_has_no_basin(self, name):
-        found = states(lesson.preset(name).params)
-        assert found[-1].icp.stop is not None
-        assert not found[-1].tries
+        steps = states(lesson.preset(name).params)
+        assert steps[-1].icp.stop is not None
+        assert not steps[-1].tries
         assert "home" not in caption(lesson.preset(name).params, -1).text
 
     def test_a_wrong_scale_is_not_home(self):
@@ -131,7 +131,7 @@ class TestPresets:
         assert spread.error.translation == pytest.approx(0.0061, abs=0.0005)
 
     def test_what_is_quoted_is_at_rest_and_what_is_not_says_so(self, monkeypatch):
-        for params in [one.params for one in (*lesson.presets, *lesson.questions)]:
+        for params in [entry.params for entry in (*lesson.presets, *lesson.questions)]:
             if params.stage == "flat":
                 continue
             assert end(until_stop(params)).icp.stop in (Stop.CONVERGED, Stop.CIRCLING), params
@@ -157,12 +157,12 @@ class TestPresets:
 
 class TestBasin:
     def test_home_to_90_degrees_then_lost(self):
-        found = tries("home")
-        assert [t.start_angle for t in found] == list(ANGLES)
+        attempts = tries("home")
+        assert [t.start_angle for t in attempts] == list(ANGLES)
         assert states(HOME)[-1].edge == 90
-        lost = [t for t in found if t.start_angle > 90]
+        lost = [t for t in attempts if t.start_angle > 90]
         assert all(t.error.rotation > 110 for t in lost)
-        assert all(2.9 < t.rmse / found[0].rmse < 3.7 for t in lost)
+        assert all(2.9 < t.rmse / attempts[0].rmse < 3.7 for t in lost)
 
     def test_it_is_the_run_itself_from_other_starts(self):
         """The tries were once thinned, turned the other way, and not shifted: another
@@ -204,7 +204,7 @@ class TestBasin:
     def test_its_dial_is_green_where_icp_comes_home(self):
         for name in ("home", "overlap-tight"):
             params = lesson.preset(name).params
-            at_home = [states(params)[0].scans.at_home(one.error) for one in tries(name)]
+            at_home = [states(params)[0].scans.at_home(attempt.error) for attempt in tries(name)]
             dial = scene(params, -1)["dial"]
             np.testing.assert_array_equal(dial.color.ids[1::3] == 0, at_home)
             middles = dial.ends[1::3].mean(axis=1)
@@ -235,15 +235,15 @@ class TestPicture:
 
     def test_matches_end_at_the_points_they_join(self):
         for k in range(4):
-            now = states(HOME)[k].icp
+            state = states(HOME)[k].icp
             shown = scene(HOME, k)
             ends = shown["matches"].ends
             source = shown["source"]
             rows = slice(None, None, 30)  # 1,500 are too many to be drawn
             p = apply(source.T_world_object, source.p[rows])
-            kept = now.kept[rows]
+            kept = state.kept[rows]
             np.testing.assert_allclose(ends[:, 0], p, atol=1e-12)
-            q = shown["target"].p[now.indices[rows]]
+            q = shown["target"].p[state.indices[rows]]
             np.testing.assert_allclose(ends[kept, 1], q[kept], atol=1e-12)
             stubs = p + 0.25 * (
                 q - p
@@ -268,10 +268,10 @@ class TestPicture:
 
     def test_captions_carry_their_numbers(self):
         match, fit = caption(HOME, 0), caption(HOME, 1)
-        now = states(HOME)[1]
+        fitted = states(HOME)[1]
         assert match.values == {"n": 1, "points": 1500, "kept": 1350}
-        assert fit.values["off"] == pytest.approx(now.error.rotation)
-        assert fit.values["turned"] == pytest.approx(now.turned)
+        assert fit.values["off"] == pytest.approx(fitted.error.rotation)
+        assert fit.values["turned"] == pytest.approx(fitted.turned)
         step = next(i for i, s in enumerate(states(HOME)) if s.icp.stop)
         assert caption(HOME, step).tone == "good"
         assert caption(HOME, step).values["rounds"] == 61
@@ -307,13 +307,13 @@ class TestPicture:
 
 class TestQuestions:
     def test_their_answers(self):
-        found = {
+        truths = {
             q.name: answer(lesson, q, None, timelines=TIMELINES).truth for q in lesson.questions
         }
-        assert found["predict-far"] == "Lower the RMSE to the end and be wrong"
-        assert found["predict-plane"] == "10"
-        assert found["best-share"] == "70 %"
-        assert found["predict-vase"] == "Small RMSE, wrong turn"
+        assert truths["predict-far"] == "Lower the RMSE to the end and be wrong"
+        assert truths["predict-plane"] == "10"
+        assert truths["best-share"] == "70 %"
+        assert truths["predict-vase"] == "Small RMSE, wrong turn"
 
     def test_they_open_the_run_itself_where_the_answer_is_seen(self):
         for question in lesson.questions:

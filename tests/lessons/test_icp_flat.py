@@ -38,11 +38,11 @@ def ends(start: float, **values: Any) -> Any:
 
 class TestNumbers:
     def test_from_45_it_comes_home(self):
-        found = states("from-45")
-        assert [round(-s.turned, 1) for s in found[1:8:2]] == [2.4, 2.6, 2.7, 2.8]
-        assert found[-1].iteration == 19
-        assert found[-1].angle == pytest.approx(0.58, abs=0.01)
-        assert 1000 * found[-1].rmse == pytest.approx(18.4, abs=0.1)
+        run_ = states("from-45")
+        assert [round(-s.turned, 1) for s in run_[1:8:2]] == [2.4, 2.6, 2.7, 2.8]
+        assert run_[-1].iteration == 19
+        assert run_[-1].angle == pytest.approx(0.58, abs=0.01)
+        assert 1000 * run_[-1].rmse == pytest.approx(18.4, abs=0.1)
 
     def test_from_75_it_ends_in_another_valley(self):
         last = states("from-75")[-1]
@@ -121,8 +121,10 @@ class TestLandscape:
 
 class TestQuestions:
     def test_their_answers(self):
-        found = {q.name: answer(lesson, q, None, timelines=TIMELINES) for q in lesson.questions[:3]}
-        assert found["how-many-now"].truth == "More than one"
-        assert found["predict-matches"].truth == "Fewer than one in ten"
-        assert found["where-it-rests"].value == pytest.approx(94.6, abs=0.1)
-        assert "4 of 50" in found["predict-matches"].why
+        answers = {
+            q.name: answer(lesson, q, None, timelines=TIMELINES) for q in lesson.questions[:3]
+        }
+        assert answers["how-many-now"].truth == "More than one"
+        assert answers["predict-matches"].truth == "Fewer than one in ten"
+        assert answers["where-it-rests"].value == pytest.approx(94.6, abs=0.1)
+        assert "4 of 50" in answers["predict-matches"].why

@@ -89,30 +89,30 @@ class TestOwnScans:
         )
         T = T @ np.linalg.inv(shift)
         np.savetxt(tmp_path / "pose.txt", T)
-        found = states(replace(two_files, truth=tmp_path / "pose.txt"))
-        assert found[0].error.rotation == pytest.approx(35)
-        assert end(found).home
-        first = found[-1].tries[
+        run = states(replace(two_files, truth=tmp_path / "pose.txt"))
+        assert run[0].error.rotation == pytest.approx(35)
+        assert end(run).home
+        first = run[-1].tries[
             0
         ]  # started at the truth, so its end as seen from the truth is no motion at all
         np.testing.assert_allclose(first.T_target_truth[:3, :3], np.eye(3), atol=0.02)
-        off = apply(first.T_target_truth, found[0].scans.frame.centre) - found[0].scans.frame.centre
+        off = apply(first.T_target_truth, run[0].scans.frame.centre) - run[0].scans.frame.centre
         assert np.linalg.norm(off) < 10  # of about 1000
 
     def test_the_initial_guess_is_set_by_hand(self):
         guess = (0.0, 0.0, 0.0, 0.0, 0.0, np.radians(35))
         assert states(replace(HOME, guess=guess))[0].error.rotation < 1e-9
-        found = states(replace(HOME, start_angle=120.0, guess=(0.0, 0.0, 0.0, 0.0, 0.0, 1.5)))
-        assert end(found).home
+        run = states(replace(HOME, start_angle=120.0, guess=(0.0, 0.0, 0.0, 0.0, 0.0, 1.5)))
+        assert end(run).home
 
     def test_bad_input_is_one_line(self, two_files, tmp_path):
-        one = tmp_path / "one.xyz"
-        one.write_text("1 2 3\n")
+        single = tmp_path / "one.xyz"
+        single.write_text("1 2 3\n")
         for params, words in (
             (replace(two_files, source=None), "both"),
             (Params(truth=Path("pose.txt")), "both"),
             (replace(two_files, target=tmp_path / "no.ply"), "no such file"),
-            (replace(two_files, source=one), "1 point"),
+            (replace(two_files, source=single), "1 point"),
             (replace(two_files, truth=tmp_path / "no.txt"), "no such file"),
         ):
             with pytest.raises(InputError, match=words):
@@ -140,10 +140,10 @@ class TestAwkwardScans:
         gate: Any = {"gate": "max-distance", "max_distance": 0.06, "thinning": "chance"}
         p_target, p_source = self.rabbits()
         metres = fitted(self.files(tmp_path, p_target, p_source, **gate))
-        there = tmp_path / unit
-        there.mkdir()
+        folder = tmp_path / unit
+        folder.mkdir()
         first = fitted(
-            self.files(there, per_metre * p_target, per_metre * p_source, unit=unit, **gate)
+            self.files(folder, per_metre * p_target, per_metre * p_source, unit=unit, **gate)
         )
         assert 0.1 < metres.icp.overlap < 0.9
         assert first.icp.overlap == metres.icp.overlap
@@ -163,11 +163,11 @@ class TestAwkwardScans:
     def test_far_from_the_origin_nothing_changes(self, tmp_path):
         p_target, p_source = self.rabbits()
         far = np.array([512_000.0, 5_403_000.0, 310.0])
-        there = tmp_path / "utm"
-        there.mkdir()
+        folder = tmp_path / "utm"
+        folder.mkdir()
         for fit in ("point-to-point", "point-to-plane"):
             here = until_stop(self.files(tmp_path, p_target, p_source, fit=fit))[-1]
-            utm = until_stop(self.files(there, p_target + far, p_source + far, fit=fit))[-1]
+            utm = until_stop(self.files(folder, p_target + far, p_source + far, fit=fit))[-1]
             assert utm.icp.stop is here.icp.stop
             back = motion(np.eye(3), -far) @ utm.icp.T_target_source @ motion(np.eye(3), far)
             np.testing.assert_allclose(back, here.icp.T_target_source, atol=1e-4)

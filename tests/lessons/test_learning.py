@@ -39,10 +39,10 @@ def last_of(params: Params, **slots: Any) -> Any:
 
 
 def test_the_default_run_learns_every_angle():
-    found = states(Params())
-    assert wrong_by(found[0]).mean() > 60
-    assert wrong_by(found[-1]).max() < 5
-    assert tone(found[-1]) == "good"
+    run_ = states(Params())
+    assert wrong_by(run_[0]).mean() > 60
+    assert wrong_by(run_[-1]).max() < 5
+    assert tone(run_[-1]) == "good"
 
 
 def test_one_number_is_cut_at_half_a_turn():
@@ -205,7 +205,7 @@ def test_two_photographs_are_matched_better_than_many_and_show_less():
     ],
 )
 def test_answers(name, low, high):
-    question = next(one for one in lesson.questions if one.name == name)
+    question = next(q for q in lesson.questions if q.name == name)
     assert low <= question.answer(states(question.params)) <= high
 
 
@@ -251,7 +251,7 @@ def test_whatever_is_clicked_on_is_looked_at():
 
 def test_every_task_starts_at_once_and_ends_where_it_is_told():
     for task in ("angle", "rotation", "sets", "mesh", "classify", "field"):
-        found = list(run(Params(task=task, updates=3)))
-        assert (found[0].now.updates, found[-1].now.updates) == (0, 3)
-        assert [state.last for state in found].count(True) == 1
-        assert found[-1].last
+        run_ = list(run(Params(task=task, updates=3)))
+        assert (run_[0].now.updates, run_[-1].now.updates) == (0, 3)
+        assert [state.last for state in run_].count(True) == 1
+        assert run_[-1].last

@@ -31,8 +31,8 @@ def of(name: str) -> tuple[Any, ...]:
     return states(lesson.preset(name).params)
 
 
-def whole(found: tuple[Any, ...]) -> tuple[State, Sums]:
-    state = next(state for state in reversed(found) if state.study is None)
+def whole(run_: tuple[Any, ...]) -> tuple[State, Sums]:
+    state = next(state for state in reversed(run_) if state.study is None)
     assert isinstance(state.now, Sums)
     return state, state.now
 
@@ -51,22 +51,22 @@ def tone(name: str) -> str:
 
 
 def test_the_sum_falls_below_zero_and_comes_back():
-    found = states(Params())
-    volumes = [state.now.volume for state in found if isinstance(state.now, Sums)]
+    run_ = states(Params())
+    volumes = [state.now.volume for state in run_ if isinstance(state.now, Sums)]
     assert min(volumes) < -0.2
     assert volumes[8] < 0  # where the page says that near ones are mostly minus
-    state, now = whole(found)
+    state, sums = whole(run_)
     assert state.volume_error == pytest.approx(0, abs=1e-12)
-    assert now.area == pytest.approx(6.888, abs=1e-3)
+    assert sums.area == pytest.approx(6.888, abs=1e-3)
     assert caption_of(draw(state)).tone == "good"
-    minus = found[8].now.parts[found[8].now.order[: found[8].now.count]] < 0
+    minus = run_[8].now.parts[run_[8].now.order[: run_[8].now.count]] < 0
     assert minus.mean() > 0.6
 
 
 def test_far_away_the_sum_is_the_same():
-    state, now = whole(of("origin"))
+    state, sums = whole(of("origin"))
     assert abs(state.volume_error) < 1e-10
-    assert now.parts[now.parts > 0].sum() > 10 * now.volume
+    assert sums.parts[sums.parts > 0].sum() > 10 * sums.volume
     assert min(s.now.volume for s in of("origin")) < -7
 
 
@@ -83,10 +83,10 @@ def test_a_hole_makes_the_volume_depend_on_the_origin():
 
 
 def test_turned_faces_cost_twice_their_volume_and_no_area():
-    state, now = whole(of("flipped"))
+    state, sums = whole(of("flipped"))
     assert state.area_error == pytest.approx(0, abs=1e-12)
     assert state.volume_error == pytest.approx(-0.101, abs=2e-3)
-    unsigned = np.abs(now.parts).sum() / state.subject.volume - 1
+    unsigned = np.abs(sums.parts).sum() / state.subject.volume - 1
     assert unsigned > 1  # what absolute values would give
     assert tone("flipped") == "wrong"
     errors = [whole(states(params))[0].volume_error for params in lesson.swept(lesson.sweeps[0])]
@@ -94,16 +94,16 @@ def test_turned_faces_cost_twice_their_volume_and_no_area():
 
 
 def test_overlaps_count_twice_but_not_in_voxels():
-    state, now = whole(of("overlap"))
-    assert now.volume == pytest.approx(2 * signed_volume(*_ball()), rel=1e-9)
+    state, sums = whole(of("overlap"))
+    assert sums.volume == pytest.approx(2 * signed_volume(*_ball()), rel=1e-9)
     assert state.volume_error == pytest.approx(0.175, abs=1e-3)
     assert tone("overlap") == "wrong"
     assert abs(cells_of("union")[0].volume_error) < 0.01
 
 
 def _ball() -> tuple[np.ndarray, np.ndarray]:
-    one = built_in("sphere", 3, 4, rings=4)
-    return one.p, one.faces
+    sphere = built_in("sphere", 3, 4, rings=4)
+    return sphere.p, sphere.faces
 
 
 def test_an_inscribed_sphere_is_too_small_with_the_square_of_the_edges():
@@ -120,12 +120,12 @@ def test_an_inscribed_sphere_is_too_small_with_the_square_of_the_edges():
 
 
 def test_the_volume_of_voxels_converges_and_the_area_does_not():
-    state, now = cells_of("staircase")
-    assert now.across == (4, 6, 8, 11, 16, 23, 32, 45, 64)
+    state, cells = cells_of("staircase")
+    assert cells.across == (4, 6, 8, 11, 16, 23, 32, 45, 64)
     assert abs(state.volume_error) < 1e-3
-    shares = np.array(now.areas) / state.subject.area
+    shares = np.array(cells.areas) / state.subject.area
     np.testing.assert_allclose(shares[3:], 1.5, atol=0.02)
-    np.testing.assert_allclose(np.array(now.marched)[4:] / state.subject.area, 1.087, atol=0.01)
+    np.testing.assert_allclose(np.array(cells.marched)[4:] / state.subject.area, 1.087, atol=0.01)
     off = [
         [s.volume_error for s in states(replace(state.params, seed=seed, cells=16))][-1]
         for seed in range(6)
@@ -134,8 +134,8 @@ def test_the_volume_of_voxels_converges_and_the_area_does_not():
 
 
 def test_the_lantern_has_five_times_the_area():
-    state, now = whole(of("lantern"))
-    assert now.area / state.subject.area == pytest.approx(4.935, abs=1e-3)
+    state, sums = whole(of("lantern"))
+    assert sums.area / state.subject.area == pytest.approx(4.935, abs=1e-3)
     assert np.isnan(state.subject.volume)
     study = of("lantern")[-1].study
     assert study is not None
@@ -182,8 +182,8 @@ def test_who_looks_at_every_step_sees_the_truth_outside_in_most_runs():
         ever = ever + outside.any()
         at_last = at_last + outside[-1]
     assert (ever, at_last) == (69, 4)  # 57 % and 3 %
-    now, at_any_step = of("throws")[-1].peeked
-    assert now == pytest.approx(0.05, abs=0.01)
+    at_end, at_any_step = of("throws")[-1].peeked
+    assert at_end == pytest.approx(0.05, abs=0.01)
     assert at_any_step == pytest.approx(ever / 120, abs=0.05)
     assert (
         "56 % missed it at one or more of the 33 looks"
@@ -199,11 +199,11 @@ def test_stratified_throws_are_made_once_for_each_number_of_cubes():
 
 
 def test_what_a_hole_takes_is_the_cone_from_the_origin():
-    found, total = whole(of("hole"))
-    subject = found.subject
+    state, total = whole(of("hole"))
+    subject = state.subject
     kept = {tuple(face) for face in subject.faces.tolist()}
     gone = subject.p[[face for face in subject.whole.tolist() if tuple(face) not in kept]]
-    a, b, c = (gone - np.array(found.params.origin)).transpose(1, 0, 2)
+    a, b, c = (gone - np.array(state.params.origin)).transpose(1, 0, 2)
     cone = float(np.einsum("fx,fx->f", a, np.cross(b, c)).sum()) / 6
     assert cone == pytest.approx(0.074, abs=0.0005)
     assert total.volume + cone == pytest.approx(subject.volume)
@@ -211,9 +211,9 @@ def test_what_a_hole_takes_is_the_cone_from_the_origin():
 
 
 def test_in_many_dimensions_nothing_hits():
-    now = of("dimensions")[-1].now
-    assert isinstance(now, Balls)
-    hits = dict(zip(now.dimensions, now.hits, strict=True))
+    balls = of("dimensions")[-1].now
+    assert isinstance(balls, Balls)
+    hits = dict(zip(balls.dimensions, balls.hits, strict=True))
     assert hits[2] == pytest.approx(78_540, abs=500)
     assert hits[10] == pytest.approx(249, abs=60)
     assert hits[20] == 0
@@ -239,12 +239,12 @@ def test_faces_alike_pull_the_mean_to_the_small_faces():
     ],
 )
 def test_quarters_of_a_triangle(place, shares):
-    found = [
+    in_triangle = [
         state
         for state in run(Params(method="samples", place=place, throws=100))
         if state.in_triangle
     ]
-    np.testing.assert_allclose(found[-1].quarters, shares, atol=0.025)
+    np.testing.assert_allclose(in_triangle[-1].quarters, shares, atol=0.025)
 
 
 def test_lines_tell_the_area():

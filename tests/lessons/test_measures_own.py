@@ -161,7 +161,7 @@ def test_all_labels_together(organ):
 
 
 @pytest.mark.parametrize(
-    ("arrays", "label", "said"),
+    ("arrays", "label", "message"),
     [
         ({"labels": np.ones((3, 3, 3), np.uint8)}, 9, "no voxel has the label 9; there are 1"),
         ({"labels": np.zeros((3, 3, 3), bool)}, 0, "none but 0"),
@@ -174,9 +174,9 @@ def test_all_labels_together(organ):
         ({"labels": np.ones((3, 3, 3))}, 0, "no array of three axes"),
     ],
 )
-def test_voxels_that_cannot_be_used_are_refused_in_one_line(tmp_path, arrays, label, *, said):
+def test_voxels_that_cannot_be_used_are_refused_in_one_line(tmp_path, arrays, label, *, message):
     np.savez(tmp_path / "bad.npz", **arrays)
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         next(run(Params(voxels=tmp_path / "bad.npz", label=label)))
 
 

@@ -51,10 +51,11 @@ def test_pose_says_which_camera_is_taken(tmp_path):
         "f = 800 px is a guess: set your camera's."
     )  # runs open past the first step
     assert "What is its focal length? Until you set it, 800 px is taken as a guess" in asked
-    said, *others = captions("pose", sightings=tmp_path / "own.txt", focal=600.0)
+    first, *others = captions("pose", sightings=tmp_path / "own.txt", focal=600.0)
     assert not any("guess" in text for text in others)
     assert (
-        "with the focal length that you say, 600 px, and the principal point (319.5, 239.5)" in said
+        "with the focal length that you say, 600 px, and the principal point (319.5, 239.5)"
+        in first
     )
     hint = {field.name: field.knob.hint for field in fields_of(course()["pose"].params)}["focal"]
     assert "800 px is a guess until you give yours" in hint

@@ -44,12 +44,12 @@ def scene(name: str, k: int) -> Any:
 
 class TestFlat:
     def test_twice_the_radius_times_the_sine_of_half_the_angle(self):
-        found = {s.angle: s.rmse for s in preset("turned")}
-        whole = found[180.0]
+        errors = {s.angle: s.rmse for s in preset("turned")}
+        whole = errors[180.0]
         for angle, rmse in ((60.0, 0.416), (120.0, 0.72), (-60.0, 0.416)):
-            assert found[angle] == pytest.approx(rmse, abs=5e-4)
-            assert found[angle] == pytest.approx(whole * abs(np.sin(np.radians(angle) / 2)))
-        assert found[0.0] == pytest.approx(0.0, abs=1e-12)
+            assert errors[angle] == pytest.approx(rmse, abs=5e-4)
+            assert errors[angle] == pytest.approx(whole * abs(np.sin(np.radians(angle) / 2)))
+        assert errors[0.0] == pytest.approx(0.0, abs=1e-12)
 
     def test_it_opens_where_the_words_say_and_the_ball_is_on_the_curve(self):
         assert preset("turned")[START].angle == -60.0
@@ -86,14 +86,14 @@ class TestSpace:
         [("least", 0.290), ("middle", 0.401), ("largest", 0.547), ("whole", 0.737)],
     )
     def test_which_direction_is_flipped_decides_the_price(self, flip, rmse):
-        found = states(replace(lesson.preset("mirrored").params, flip=flip))
-        assert found[4].now.mirror
-        assert found[4].now.rmse < 1e-9
-        assert found[5].now.rmse == pytest.approx(rmse, abs=5e-4)
+        run_ = states(replace(lesson.preset("mirrored").params, flip=flip))
+        assert run_[4].now.mirror
+        assert run_[4].now.rmse < 1e-9
+        assert run_[5].now.rmse == pytest.approx(rmse, abs=5e-4)
 
     def test_in_and_out_come_home(self):
-        found = preset("pairs")
-        assert [s.now.stage for s in found] == [
+        run_ = preset("pairs")
+        assert [s.now.stage for s in run_] == [
             "pairs",
             "centre",
             "cross",
@@ -102,10 +102,10 @@ class TestSpace:
             "flip",
             "scale",
         ]
-        assert [round(s.now.rmse, 3) for s in found[2:5]] == [0.490, 0.437, 0.024]
-        T = found[-1].now.T_target_source
-        assert found.subject.at_home(T, found[-1].now.scale)
-        assert found[-1].now.rmse == pytest.approx(
+        assert [round(s.now.rmse, 3) for s in run_[2:5]] == [0.490, 0.437, 0.024]
+        T = run_[-1].now.T_target_source
+        assert run_.subject.at_home(T, run_[-1].now.scale)
+        assert run_[-1].now.rmse == pytest.approx(
             0.01 * np.sqrt(6), rel=0.05
         )  # "the noise of the two scans"
 
@@ -134,11 +134,11 @@ class TestSpace:
 
     def test_the_chart_of_the_scale_has_the_runs_own_numbers(self):
         shown = scene("scale", -1)
-        there, mark = shown["scale/there"], shown["scale/mark"]
-        assert there.y[0] == pytest.approx(1.5)
+        curve, mark = shown["scale/there"], shown["scale/mark"]
+        assert curve.y[0] == pytest.approx(1.5)
         assert mark.y[0] == pytest.approx(preset("scale")[-1].now.scale)
         assert mark.knob == "noise"
-        at = np.argmin(np.abs(there.x - 0.05))
+        at = np.argmin(np.abs(curve.x - 0.05))
         assert 1 / shown["scale/back"].y[at] == pytest.approx(preset("scale")[-1].back)
 
     def test_up_to_seven_in_ten_wrong_partners_the_turn_is_a_few_degrees_off(self):
@@ -152,8 +152,8 @@ class TestSpace:
     def test_the_mark_of_wrong_partners_is_where_the_run_ends(self):
         for name in ("half-wrong-pairs", "together"):
             shown = scene(name, 5)
-            found = preset(name)
-            error = found.subject.degrees_off(found[5].now.T_target_source)
+            run_ = preset(name)
+            error = run_.subject.degrees_off(run_[5].now.T_target_source)
             assert shown["wrong/mark"].y[0] == pytest.approx(error)
             assert shown["rotation error"].value == pytest.approx(error)
 
@@ -193,11 +193,11 @@ class TestSpace:
 
 class TestQuestions:
     def test_their_answers(self):
-        found = {q.name: answer(lesson, q, None, timelines=TIMELINES) for q in lesson.questions}
-        assert found["how-many-valleys"].truth == "One"
-        assert found["predict-negated"].value == pytest.approx(0.737, abs=1e-3)
-        assert found["predict-product"].truth == "less than 1"
-        assert found["half-wrong"].truth == "Less than 5°"
+        answers = {q.name: answer(lesson, q, None, timelines=TIMELINES) for q in lesson.questions}
+        assert answers["how-many-valleys"].truth == "One"
+        assert answers["predict-negated"].value == pytest.approx(0.737, abs=1e-3)
+        assert answers["predict-product"].truth == "less than 1"
+        assert answers["half-wrong"].truth == "Less than 5°"
 
     def test_every_wrong_answer_is_answered_and_none_is_right(self):
         for question in lesson.questions:
@@ -235,25 +235,25 @@ class TestOwn:
 
     def test_two_clouds_go_row_by_row(self, tmp_path, shape):
         files = self.files(tmp_path, target=1.4 * shape @ R.T + 9.0, source=shape)
-        found = states(Input(**files, points=400))
-        assert len(found.subject.p_source) == 400
-        assert found[-1].now.scale == pytest.approx(1.4)
-        assert found[-1].now.rmse < 1e-9
+        run_ = states(Input(**files, points=400))
+        assert len(run_.subject.p_source) == 400
+        assert run_[-1].now.scale == pytest.approx(1.4)
+        assert run_[-1].now.rmse < 1e-9
 
     @pytest.mark.parametrize("up", ["z", "y"])
     def test_a_known_pose_is_the_truth(self, tmp_path, shape, up):
         T = motion(R, np.array([0.2, 3.0, -1.0]))
         np.savetxt(tmp_path / "pose.txt", T)
         files = self.files(tmp_path, target=shape @ R.T + T[:3, 3], source=shape)
-        found = states(Input(**files, truth=tmp_path / "pose.txt", up=up))
-        true = found.subject.T_target_source
-        np.testing.assert_allclose(found[-1].now.T_target_source, true, atol=1e-9)
+        run_ = states(Input(**files, truth=tmp_path / "pose.txt", up=up))
+        true = run_.subject.T_target_source
+        np.testing.assert_allclose(run_[-1].now.T_target_source, true, atol=1e-9)
 
     def test_one_cloud_takes_the_place_of_the_rabbit(self, tmp_path, shape):
-        found = states(Input(**self.files(tmp_path, source=1000.0 * shape + 5e5), noise=0.0))
-        assert np.ptp(found.subject.p_source, axis=0).max() < 1.5
-        true = found.subject.T_target_source
-        assert degrees_between(found[-1].now.T_target_source, true) < 1e-6
+        run_ = states(Input(**self.files(tmp_path, source=1000.0 * shape + 5e5), noise=0.0))
+        assert np.ptp(run_.subject.p_source, axis=0).max() < 1.5
+        true = run_.subject.T_target_source
+        assert degrees_between(run_[-1].now.T_target_source, true) < 1e-6
 
     def test_what_cannot_be_used_is_refused_in_one_line(self, tmp_path, shape):
         holed = np.where(shape > 0.4, np.nan, shape)

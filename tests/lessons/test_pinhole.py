@@ -105,7 +105,9 @@ def test_outlines_and_dots_agree_at_every_stage(k):
     eye = camera_center(shot.T_camera_world)
     pixels = [picked(picture, eye, place - eye) for place in dots.p]
     inside = [
-        one for one in pixels if isinstance(one, tuple) and 3 < one[0] < 316 and 3 < one[1] < 236
+        pixel
+        for pixel in pixels
+        if isinstance(pixel, tuple) and 3 < pixel[0] < 316 and 3 < pixel[1] < 236
     ]
     assert len(inside) > 60
     corners = [
@@ -208,10 +210,10 @@ def test_doubling_f_doubles_every_distance_from_the_principal_point():
 def test_orthographic_gap_shrinks_as_one_over_the_distance():
     run_ = preset("orthographic")
     shot = run_.subject
-    found = gaps(run_.params)
+    all_gaps = gaps(run_.params)
     assert shot.gap < 3
-    assert found[0] > 50
-    rate = np.diff(np.log(found[-6:])) / np.diff(np.log(FARTHER[-6:]))
+    assert all_gaps[0] > 50
+    rate = np.diff(np.log(all_gaps[-6:])) / np.diff(np.log(FARTHER[-6:]))
     np.testing.assert_allclose(rate, -1.0, atol=0.05)
     n = street().edges.reshape(-1, 3) - camera_center(shot.T_camera_world)
     n /= np.linalg.norm(n, axis=1, keepdims=True)
@@ -460,14 +462,14 @@ def test_the_dot_stays_while_the_lamp_goes_along_its_ray():
 
 
 def test_captions_speak_of_what_this_camera_is_about():
-    for name, step, said in (
+    for name, step, text in (
         ("crate", PIXELS, "The crate is 56 px high, the tower 97 px."),
         ("rails", PIXELS, "The rails meet at (159.5, 110.0)."),
         ("cut", 0, "The picture now begins 60 columns further right."),
         ("lamp", PIXELS, "K puts the lamp at column u = 96.2, row v = 49.3."),
     ):
         shown = Timeline(lesson, lesson.preset(name).params).complete()[step]
-        assert shown.caption.text == said
+        assert shown.caption.text == text
 
 
 def test_behind_the_camera_the_lamp_keeps_its_dot_if_divided_anyway():
@@ -488,10 +490,10 @@ def test_a_turn_moves_t_and_leaves_the_camera_where_it_is():
 
 @pytest.mark.parametrize(("angle", "moved"), [(5.0, 22.8), (10.0, 45.9), (20.0, 94.7)])
 def test_a_turn_moves_the_vanishing_point(angle, moved):
-    first, now = (
+    first, turned = (
         shot_of(dataclasses.replace(presets.RAILS, turn=turn)).vanishing for turn in (0.0, angle)
     )
-    assert np.linalg.norm(now - first) == pytest.approx(moved, abs=0.06)
+    assert np.linalg.norm(turned - first) == pytest.approx(moved, abs=0.06)
 
 
 def test_a_cut_moves_cx_by_as_many_columns():
@@ -535,10 +537,10 @@ def test_known_wrong_answers_are_answered_and_not_right():
     for given in (49.75, 50.0, 64.5, 79.5, 99.5, 159.5):
         assert crop.reply(given)
         assert abs(given - 49.5) > crop.tolerance
-    for one in lesson.questions:
-        right = one.answer(states(one.params))
-        for i, choice in enumerate(one.choices):
-            assert bool(one.reply(i)) == (i != right), choice
+    for q in lesson.questions:
+        right = q.answer(states(q.params))
+        for i, choice in enumerate(q.choices):
+            assert bool(q.reply(i)) == (i != right), choice
 
 
 def test_the_text_of_the_centre_question_states_the_t_of_its_camera():

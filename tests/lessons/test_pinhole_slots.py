@@ -59,8 +59,8 @@ def test_a_point_in_front_that_a_function_loses_is_not_said_to_be_behind():
 
 
 def test_a_lens_that_bends_where_there_is_none_is_not_said_to_do_nothing():
-    said = captions(Params(k1=0.0, k2=0.0), distort=lambda xy, k1, k2, p1, p2: 1.1 * xy)
-    assert "bends nothing" not in said[DISTORT]
+    texts = captions(Params(k1=0.0, k2=0.0), distort=lambda xy, k1, k2, p1, p2: 1.1 * xy)
+    assert "bends nothing" not in texts[DISTORT]
 
 
 def test_round_trips_end_where_they_began_and_not_at_a_rounding():

@@ -28,14 +28,14 @@ def of(name: str) -> tuple[Any, ...]:
     return states(lesson.preset(name).params)
 
 
-def phase(found: tuple[Any, ...], name: str) -> Any:
+def phase(run_: tuple[Any, ...], name: str) -> Any:
     """The first step of a phase."""
-    return next(state for state in found if getattr(state.now, "phase", None) == name)
+    return next(state for state in run_ if getattr(state.now, "phase", None) == name)
 
 
-def others(found: tuple[Any, ...]) -> Repeated:
-    assert isinstance(found[-1].now, Repeated)
-    return found[-1].now
+def others(run_: tuple[Any, ...]) -> Repeated:
+    assert isinstance(run_[-1].now, Repeated)
+    return run_[-1].now
 
 
 def errors_of(state: Any) -> list[float]:
@@ -46,24 +46,24 @@ def errors_of(state: Any) -> list[float]:
 
 
 def test_the_default_run_ends_near_the_truth():
-    found = states(Params())
-    assert [state.now.phase for state in found[1:6]] == [
+    run_ = states(Params())
+    assert [state.now.phase for state in run_[1:6]] == [
         "rays",
         "quartic",
         "root",
         "root",
         "choose",
     ]  # the page's links
-    assert found[6].now.phase == "step"
-    first, last = phase(found, "choose"), phase(found, "stop")
+    assert run_[6].now.phase == "step"
+    first, last = phase(run_, "choose"), phase(run_, "stop")
     assert off(first.T, first.subject.T_true)[0] > 10 * off(last.T, last.subject.T_true)[0]
     assert rms(pixels_off(last.T, last.subject)) < 2
-    assert share_near(others(found), last.subject) == 1
+    assert share_near(others(run_), last.subject) == 1
 
 
 def test_four_cameras_see_one_picture():
-    found = of("four")
-    state = found[6]
+    run_ = of("four")
+    state = run_[6]
     assert state.now.phase == "root"
     assert len(state.now.candidates) == 4
     assert max(rms(pixels_off(T, state.subject)[:3]) for T in state.now.candidates) < 1e-6
@@ -75,7 +75,7 @@ def test_four_cameras_see_one_picture():
     assert min(apart) > 1
     drawn = draw(state)
     assert (
-        sum(isinstance(one, Camera) for one in drawn.values()) == 5
+        sum(isinstance(primitive, Camera) for primitive in drawn.values()) == 5
     )  # with the true one, on which one of them stands
 
 
@@ -99,9 +99,9 @@ def test_a_marker_has_two_poses_and_perspective_tells_them_apart():
 
 @pytest.mark.parametrize(("tilt", "low", "high"), [(40.0, 0.25, 0.6), (60.0, 0.25, 0.6)])
 def test_a_tiny_marker_is_ambiguous_however_it_is_turned(tilt, low, high):
-    found = states(replace(TILTED, tilt=tilt))
-    assert low < (others(found).swapped or 0) / others(found).pictures < high
-    errors = errors_of(phase(found, "both"))
+    run_ = states(replace(TILTED, tilt=tilt))
+    assert low < (others(run_).swapped or 0) / others(run_).pictures < high
+    errors = errors_of(phase(run_, "both"))
     assert max(errors) < 1.0  # both fit to within the noise of 0.5 px
 
 
@@ -140,17 +140,17 @@ def street(**knobs: Any) -> Params:
 
 
 def test_the_street_is_known_by_its_map_and_seen_by_a_camera_in_it():
-    found = states(street())
-    subject = found[0].subject
-    last = phase(found, "stop")
+    run_ = states(street())
+    subject = run_[0].subject
+    last = phase(run_, "stop")
     assert len(subject.p_shown) == 20
     assert np.linalg.norm(np.array(Params().camera) - centre(subject.T_true)) < 1e-9
     u, v = subject.given.uv.T
     assert ((u > -5) & (u < 645) & (v > -5) & (v < 485)).all()  # in its picture, noise aside
     assert np.ptp(subject.p_shown @ subject.T_true[2, :3]) > 5  # metres of depth
     assert off(last.T, subject.T_true)[0] < 0.2
-    assert share_near(others(found), subject) == 1
-    photograph = draw(found[0])["picture"]
+    assert share_near(others(run_), subject) == 1
+    photograph = draw(run_[0])["picture"]
     assert isinstance(photograph, Picture)
     assert (
         len(np.unique(np.asarray(photograph.image).reshape(-1, 3), axis=0)) > 50
@@ -159,11 +159,11 @@ def test_the_street_is_known_by_its_map_and_seen_by_a_camera_in_it():
 
 
 def test_points_of_the_map_stay_while_the_camera_moves():
-    here, there = (
+    here, moved = (
         set(map(tuple, subject_of(street(camera=at)).p_shown))
         for at in ((0.0, -4.0, 2.0), (0.3, -4.0, 2.2))
     )
-    assert len(here & there) > 15
+    assert len(here & moved) > 15
     near, far = (subject_of(street(points=60, origin=at)).p_shown for at in (0.0, 100.0))
     np.testing.assert_allclose(near, far, atol=1e-9)
 
@@ -189,16 +189,16 @@ def test_knobs_of_the_method_find_the_street_photographed():
 
 
 def test_epnp_on_four_points_may_end_in_a_wrong_mix():
-    found = of("few")
-    wrong = phase(found, "solved")
+    run_ = of("few")
+    wrong = phase(run_, "solved")
     assert not is_near(wrong.T, wrong.subject)
     assert rms(pixels_off(wrong.T, wrong.subject)) > 5 * wrong.params.noise  # it does not even fit
     assert is_near(phase(states(replace(wrong.params, method="SQPnP")), "solved").T, wrong.subject)
-    epnp, sqpnp = others(found).far
+    epnp, sqpnp = others(run_).far
     assert 0.1 < epnp < 0.2
     assert sqpnp < 0.02
     assert others(states(replace(wrong.params, points=6))).far == (0.0, 0.0)
-    scene = draw(found[-1])
+    scene = draw(run_[-1])
     for name, share in (("EPnP", epnp), ("SQPnP", sqpnp)):
         curve = scene[f"anew/{name}"]
         assert isinstance(curve, Curve)
@@ -227,7 +227,7 @@ def test_ransac_needs_few_hundred_samples_at_70_percent():
 
 
 def answer(name: str) -> float:
-    question = next(one for one in lesson.questions if one.name == name)
+    question = next(q for q in lesson.questions if q.name == name)
     return question.answer(states(question.params))
 
 
@@ -256,17 +256,15 @@ def test_two_is_the_commonest_count():
 
 
 def last_but(params: Params, **slots: Any) -> Any:
-    found = list(run(params, **slots))
+    run_ = list(run(params, **slots))
     return next(
-        (s for s in found if isinstance(s.now, Searched) and s.now.phase == "stop"), found[-1]
+        (s for s in run_ if isinstance(s.now, Searched) and s.now.phase == "stop"), run_[-1]
     )
 
 
 def test_a_wrong_pose_from_distances_is_seen():
-    found = list(
-        run(Params(), pose_from_distances=lambda p, rays, d: np.diag([1.0, 1.0, 1.0, 1.0]))
-    )
-    text = caption_of(draw(phase(tuple(found), "root"))).text
+    run_ = list(run(Params(), pose_from_distances=lambda p, rays, d: np.diag([1.0, 1.0, 1.0, 1.0])))
+    text = caption_of(draw(phase(tuple(run_), "root"))).text
     assert "from where they were seen" in text
     assert "exactly" not in text
     for broken in (np.full((4, 4), np.nan), np.zeros((4, 4)), 2 * np.eye(4)):
@@ -275,8 +273,8 @@ def test_a_wrong_pose_from_distances_is_seen():
 
 
 def test_a_wrong_choice_is_seen():
-    found = list(run(replace(Params(), refine=False), choose_pose=lambda Ts, p, xy: Ts[-1]))
-    assert caption_of(draw(phase(tuple(found), "choose"))).tone == "wrong"
+    run_ = list(run(replace(Params(), refine=False), choose_pose=lambda Ts, p, xy: Ts[-1]))
+    assert caption_of(draw(phase(tuple(run_), "choose"))).tone == "wrong"
 
 
 def test_a_wrong_step_is_seen():

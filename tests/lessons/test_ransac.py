@@ -190,11 +190,11 @@ def test_the_votes_of_two_planes_are_said_apart():
     end = run[-1]
     best = end.state.best
     subject = run.states().subject
-    said = end.caption.values
+    values = end.caption.values
     rows = {"wall": subject.is_other, "table": subject.is_inlier}
     rows["clutter"] = ~(subject.is_other | subject.is_inlier)
-    assert {name: said[name] for name in rows} == {
-        name: int(best.inliers[one].sum()) for name, one in rows.items()
+    assert {name: values[name] for name in rows} == {
+        name: int(best.inliers[mask].sum()) for name, mask in rows.items()
     }
     assert "190 of the wall, 2 of the table and 7 of clutter" in end.caption.text
 
@@ -249,11 +249,11 @@ def test_a_vote_is_never_called_inlier():
         states = states_of(lesson.preset(name).params)
         for k in range(0, len(states), 5):
             scene = drawn(states, k)
-            legend = [getattr(one, "name", "") for one in scene.values()]
+            legend = [getattr(primitive, "name", "") for primitive in scene.values()]
             legend += [
                 word
-                for one in scene.values()
-                for word in getattr(getattr(one, "color", None), "names", ())
+                for primitive in scene.values()
+                for word in getattr(getattr(primitive, "color", None), "names", ())
             ]
             assert not [
                 word for word in (*legend, part(scene, "caption", Caption).text) if "lier" in word
@@ -279,7 +279,7 @@ def test_the_truth_is_not_drawn_before_it_is_asked_for():
 
 def test_a_hundred_draws_are_counted():
     states = states_of(presets.TALLY)
-    clean = np.array([one.clean for one in states])
+    clean = np.array([state.clean for state in states])
     assert (len(clean), clean.sum()) == (100, 23)
     assert flat.spoilt(0.5, 2, 17) < 1.0 < flat.spoilt(0.5, 2, 16)
 
@@ -325,15 +325,15 @@ def test_what_is_left_holds_the_table():
 
 
 def test_what_is_quoted_is_at_rest_or_says_that_it_is_not():
-    for params in [one.params for one in (*lesson.presets, *lesson.questions)]:
+    for params in [named.params for named in (*lesson.presets, *lesson.questions)]:
         if params.stage != "search":
             continue
         states = states_of(params)
         if end(states).stop is not Stop.ENOUGH:
             assert params == presets.TIGHT
             assert "500 samples do not suffice" in lesson.preset("tight").line
-            said = part(drawn(states, len(states) - 1), "caption", Caption).text
-            assert "maximum number of samples is reached" in said
+            text = part(drawn(states, len(states) - 1), "caption", Caption).text
+            assert "maximum number of samples is reached" in text
 
 
 def test_known_wrong_answers_are_answered():

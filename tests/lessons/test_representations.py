@@ -30,8 +30,8 @@ def of(name: str) -> tuple[Any, ...]:
     return states(lesson.preset(name).params)
 
 
-def surfaces_of(found: tuple[Any, ...]) -> list[Any]:
-    return [state.surface for state in found[:-1] if state.surface is not None]
+def surfaces_of(run_: tuple[Any, ...]) -> list[Any]:
+    return [state.surface for state in run_[:-1] if state.surface is not None]
 
 
 def last_before_others(params: Params) -> State:
@@ -48,9 +48,9 @@ def slope(state: State, first: int = 0) -> float:
 
 
 def test_the_volume_of_bits_converges_and_area_and_normals_do_not():
-    found = surfaces_of(of("binary"))
+    surfaces = surfaces_of(of("binary"))
     areas, volumes, tilts = (
-        np.array([getattr(s, name) for s in found]) for name in ("area", "volume", "tilt")
+        np.array([getattr(s, name) for s in surfaces]) for name in ("area", "volume", "tilt")
     )
     np.testing.assert_allclose(areas[[2, 4, 6]], [1.099, 1.083, 1.086], atol=0.002)
     assert abs(volumes[-1] - 1) < 0.01
@@ -177,12 +177,12 @@ def test_weights_make_the_torus_and_cubics_miss_it():
 
 
 def test_a_network_learns_a_torus_in_six_kilobytes():
-    found = of("neural")
-    at = {s.now.trained.iterations: s.surface.mean for s in found[:-1] if isinstance(s.now, Fitted)}
+    run_ = of("neural")
+    at = {s.now.trained.iterations: s.surface.mean for s in run_[:-1] if isinstance(s.now, Fitted)}
     assert at[100] > 1.5 * at[300] > 2 * at[1000]
     assert at[1000] < 6e-3
-    assert found[-1].bytes == 4 * 1601
-    losses = [s.now.trained.loss for s in found[:-1]]
+    assert run_[-1].bytes == 4 * 1601
+    losses = [s.now.trained.loss for s in run_[:-1]]
     assert losses[-1] < 0.01 * losses[0]
 
 

@@ -97,10 +97,10 @@ def test_own_points_are_stored_as_points(tmp_path):
     last = ends(form="neighbours", points=500, neighbours=6)[-1]
     assert len(last.now.p) == 300
     assert "from the nearest point of the file" in caption_of(draw(last)).text
-    *_, found, last = ends(form="k-d tree", points=300, dimensions=9)
-    tree, query = found.now.tree, found.now.query
+    *_, search, last = ends(form="k-d tree", points=300, dimensions=9)
+    tree, query = search.now.tree, search.now.query
     assert tree.p.shape == (300, 3)
-    assert found.now.visits[-1].distance == pytest.approx(
+    assert search.now.visits[-1].distance == pytest.approx(
         np.linalg.norm(tree.p - query, axis=1).min()
     )
     assert last.growth is not None

@@ -80,11 +80,11 @@ def ends_of(states: tuple[Any, ...]) -> set[str]:
 @functools.cache
 def stopping_modules() -> dict[str, type[Enum]]:
     """Return the reasons to stop that algorithms have, by module."""
-    found = {}
+    kinds = {}
     for info in pkgutil.walk_packages(workbench.algorithms.__path__, "workbench.algorithms."):
         kind = getattr(importlib.import_module(info.name), "Stop", None)
-        found |= {} if kind is None else {info.name: kind}
-    return found
+        kinds |= {} if kind is None else {info.name: kind}
+    return kinds
 
 
 def may_stop(name: str) -> bool:
@@ -97,7 +97,7 @@ def may_stop(name: str) -> bool:
         for value in vars(module).values()
         if isinstance(value, Callable | type | type(sys))
     }
-    names = {one if isinstance(one, str) else one.__name__ for one in used}
+    names = {owner if isinstance(owner, str) else owner.__name__ for owner in used}
     return name in STEPPED or bool(names & stopping_modules().keys())
 
 
@@ -106,8 +106,8 @@ def unsaid(text: str, ends: set[str], given: str = r"(?!)") -> bool:
     read.
     """
     run = re.sub(r"\]\(run:[^)]*\)|\$[^$]*\$|`[^`]*`", "]", re.sub(given, "", text))
-    said = SAYS_WHEN.search(run) or (SAYS_REST.search(run) and ends & RESTS)
-    return bool(ends & LIMITS and re.search(r"\d", run) and not said)
+    admitted = SAYS_WHEN.search(run) or (SAYS_REST.search(run) and ends & RESTS)
+    return bool(ends & LIMITS and re.search(r"\d", run) and not admitted)
 
 
 def page_sentences(lesson: Lesson, preset: str) -> list[str]:
@@ -119,24 +119,24 @@ def page_sentences(lesson: Lesson, preset: str) -> list[str]:
 
 def untold(lesson: Lesson) -> list[str]:
     """Return what a lesson says of runs that did not come to rest, without a word of that."""
-    found = []
+    lines = []
     opened = Preset("default", "", "", lesson.params())
-    for one in (opened, *lesson.presets, *lesson.questions):
-        states = finished(lesson.name, one.params).states()
-        stepped = lesson.name in STEPPED and STEPPED[lesson.name](one.params)
+    for named in (opened, *lesson.presets, *lesson.questions):
+        states = finished(lesson.name, named.params).states()
+        stepped = lesson.name in STEPPED and STEPPED[lesson.name](named.params)
         ends = {"MAX_STEPS"} if stepped else ends_of(states)
         if not ends & LIMITS:
             continue
-        given = GIVEN.get((lesson.name, one.name), r"(?!)")
-        if isinstance(one, Question):
-            told = one.why(states)
-            texts = [f"{one.text} {told}" if stepped else told]
+        given = GIVEN.get((lesson.name, named.name), r"(?!)")
+        if isinstance(named, Question):
+            told = named.why(states)
+            texts = [f"{named.text} {told}" if stepped else told]
         else:
-            texts = [one.line, *page_sentences(lesson, one.name)]
-        found += [
-            f"{lesson.name}, {one.name}: {text}" for text in texts if unsaid(text, ends, given)
+            texts = [named.line, *page_sentences(lesson, named.name)]
+        lines += [
+            f"{lesson.name}, {named.name}: {text}" for text in texts if unsaid(text, ends, given)
         ]
-    return found
+    return lines
 
 
 @pytest.mark.parametrize("name", [name for name in catalog() if may_stop(name)])
@@ -153,8 +153,8 @@ def test_every_reason_to_stop_is_a_rest_a_limit_or_a_failure():
 def test_what_is_called_given_is_said():
     for (lesson, name), given in GIVEN.items():
         preset = catalog()[lesson].preset(name)
-        said = " ".join([preset.line, *page_sentences(catalog()[lesson], name)])
-        assert all(re.search(part, said) for part in given.split("|")), name
+        text = " ".join([preset.line, *page_sentences(catalog()[lesson], name)])
+        assert all(re.search(part, text) for part in given.split("|")), name
 
 
 @pytest.mark.parametrize(

@@ -35,10 +35,10 @@ class TestRings:
 
     @pytest.mark.parametrize(("pitch", "degrees"), [(0, 1), (60, 2.73), (80, 8.1), (89, 81)])
     def test_the_knobs_turn_far_in_the_worst_direction(self, pitch, degrees):
-        found = knob_degrees(axles(lesson.preset("gimbal").params, pitch))
-        assert found == pytest.approx(degrees, rel=0.01)
+        change = knob_degrees(axles(lesson.preset("gimbal").params, pitch))
+        assert change == pytest.approx(degrees, rel=0.01)
         sine = abs(np.sin(np.radians(pitch)))
-        assert found == pytest.approx(1 / np.sqrt(1 - sine))
+        assert change == pytest.approx(1 / np.sqrt(1 - sine))
         assert np.isinf(knob_degrees(axles(lesson.preset("gimbal").params, 90.0)))
 
     def test_in_gimbal_lock_no_angle_is_enough(self):
@@ -98,20 +98,20 @@ class TestRings:
         assert family[1].name == "(70, 90, 90)°"
         assert jump_out_of_lock() == "(120, 89, 140)°"
         R, R_jump = (
-            euler_to_matrix(np.radians(one), "xyz") for one in (LOCKED, (120.0, 89.0, 140.0))
+            euler_to_matrix(np.radians(angles), "xyz") for angles in (LOCKED, (120.0, 89.0, 140.0))
         )
         assert np.degrees(rotation_angle(R_jump @ R.T)) == pytest.approx(1.0)
 
 
 class TestReadings:
     def test_how_far_each_reading_is_off(self):
-        found = {
+        off = {
             name: [state.off for state in states(NAME, name)[1:]]
             for name in ("conventions", "fixed-own", "transpose", "xyzw")
         }
-        assert found["conventions"] == pytest.approx([0, 58.2, 51.8, 73.5], abs=0.05)
-        assert found["fixed-own"] == pytest.approx([0, 58.2, 51.8], abs=0.05)
-        assert found["transpose"] == pytest.approx([80])
+        assert off["conventions"] == pytest.approx([0, 58.2, 51.8, 73.5], abs=0.05)
+        assert off["fixed-own"] == pytest.approx([0, 58.2, 51.8], abs=0.05)
+        assert off["transpose"] == pytest.approx([80])
         R = states(NAME, "xyzw")[1].R
         w = np.degrees(rotation_angle(R))
         assert w == pytest.approx(140.0)
@@ -155,8 +155,8 @@ class TestChain:
             R = states(NAME, "chain")[k].R
             p = shown["body"].p[8]
             np.testing.assert_allclose(shown["terms/3"].ends[0, 1], R @ p, atol=1e-12)
-            for one, other in itertools.pairwise(range(1, 4)):
-                before = shown[f"terms/{one}"].ends[0, 1]
+            for term, other in itertools.pairwise(range(1, 4)):
+                before = shown[f"terms/{term}"].ends[0, 1]
                 after = shown[f"terms/{other}"].ends[0, 0]
                 np.testing.assert_allclose(before, after)
 
@@ -289,13 +289,13 @@ class TestMean:
 class TestQuestions:
     def test_right_answers(self):
         timelines = Timelines()
-        found = {q.name: answer(lesson, q, None, timelines=timelines) for q in lesson.questions}
-        assert found["lost-direction"].truth == "2"
-        assert found["same-turn"].truth == "Z Y X with (70, 30, 40)°"
-        assert found["sum-of-turns"].value == pytest.approx(120)
-        assert found["long-way"].value == pytest.approx(300)
-        assert found["mean-heading"].value == pytest.approx(340)
-        assert found["mean-matrix"].value == pytest.approx(0.76, abs=0.01)
+        answers = {q.name: answer(lesson, q, None, timelines=timelines) for q in lesson.questions}
+        assert answers["lost-direction"].truth == "2"
+        assert answers["same-turn"].truth == "Z Y X with (70, 30, 40)°"
+        assert answers["sum-of-turns"].value == pytest.approx(120)
+        assert answers["long-way"].value == pytest.approx(300)
+        assert answers["mean-heading"].value == pytest.approx(340)
+        assert answers["mean-matrix"].value == pytest.approx(0.76, abs=0.01)
 
     def test_known_wrong_answers_are_answered_and_not_right(self):
         for question in lesson.questions:
@@ -340,5 +340,5 @@ class TestSlots:
         rings = driven(lesson.preset("gimbal").params, slots)[60]
         assert rotation_angle(rings.R.T @ states(NAME, "gimbal")[60].R) > 0.3
         params = replace(MOVE, method="Euler angles")
-        ours, theirs = (driven(params, one)[15] for one in ({}, slots))
+        ours, theirs = (driven(params, functions)[15] for functions in ({}, slots))
         assert np.abs(ours.T_world_body - theirs.T_world_body).max() > 0.1

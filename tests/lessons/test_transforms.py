@@ -154,16 +154,16 @@ class TestHands:
             assert other[1, 1] < low
 
     def test_of_the_arrows_the_caption_names_those_that_move(self):
-        read = next(one for one in lesson.questions if one.name == "read-columns").params
-        said = finished(NAME, read)[-1].caption.text
-        assert said == "x goes to (0.00, 1.00, 0.00), and y to (−1.00, 0.00, 0.00)."
+        read = next(q for q in lesson.questions if q.name == "read-columns").params
+        text = finished(NAME, read)[-1].caption.text
+        assert text == "x goes to (0.00, 1.00, 0.00), and y to (−1.00, 0.00, 0.00)."
         assert "z leans by 90°" in caption_of(scene(NAME, "columns", -1)).text
 
     def test_the_question_takes_back_the_same_motion_as_the_hand(self):
-        there = states(NAME, "there")
+        run = states(NAME, "there")
         undoing = states(NAME, "undoing")[30]
-        np.testing.assert_allclose(there[-1].ghost.T, undoing.T_other, atol=1e-12)
-        assert there[2].ghost is None
+        np.testing.assert_allclose(run[-1].ghost.T, undoing.T_other, atol=1e-12)
+        assert run[2].ghost is None
 
     @pytest.mark.parametrize("stage", VALUES)
     def test_every_value_is_a_step_and_its_own_place_on_the_chart(self, stage):
@@ -173,13 +173,17 @@ class TestHands:
         assert [state.value for state in run] == pytest.approx(list(VALUES[stage]))
         for k in (1, len(run) // 2, len(run) - 1):
             shown = scene(NAME, name[stage], k)
-            for mark in (one for one in shown.values() if getattr(one, "part", "") == "mark"):
+            for mark in (
+                primitive
+                for primitive in shown.values()
+                if getattr(primitive, "part", "") == "mark"
+            ):
                 wholes = [
-                    one
-                    for one in shown.values()
-                    if getattr(one, "part", "") == "whole" and one.chart == mark.chart
+                    primitive
+                    for primitive in shown.values()
+                    if getattr(primitive, "part", "") == "whole" and primitive.chart == mark.chart
                 ]
-                gaps = [abs(np.interp(mark.x[0], one.x, one.y) - mark.y[0]) for one in wholes]
+                gaps = [abs(np.interp(mark.x[0], whole.x, whole.y) - mark.y[0]) for whole in wholes]
                 assert min(gaps) < 1e-9
 
     def test_the_recipe_of_a_vertex_follows_the_arrows(self):
@@ -253,12 +257,12 @@ class TestHands:
 class TestQuestions:
     def test_right_answers(self):
         timelines = Timelines()
-        found = {q.name: answer(lesson, q, None, timelines=timelines) for q in lesson.questions}
-        assert found["read-columns"].truth == "It turns by 90° about z"
-        assert found["which-order"].value == pytest.approx(2.12, abs=0.01)
-        assert found["undo"].truth == "Unturned, somewhere else"
-        assert found["sheared-volume"].truth == "It stays"
-        assert found["apex"].truth == "2 m"
+        answers = {q.name: answer(lesson, q, None, timelines=timelines) for q in lesson.questions}
+        assert answers["read-columns"].truth == "It turns by 90° about z"
+        assert answers["which-order"].value == pytest.approx(2.12, abs=0.01)
+        assert answers["undo"].truth == "Unturned, somewhere else"
+        assert answers["sheared-volume"].truth == "It stays"
+        assert answers["apex"].truth == "2 m"
 
     def test_each_reads_the_run_and_not_the_page(self):
         assert apart(states(NAME, "orders")) == pytest.approx(1.5 * np.sqrt(2.0))

@@ -104,7 +104,8 @@ def test_experiments_are_folded_where_the_text_links_each_of_them(tmp_path):
         assert ("<summary>All experiments</summary>" in document) is folded
         assert ("<h2>Experiments</h2>" in document) is not folded
         assert all(
-            f'<button type="button" data-run="{one.name}"' in document for one in lesson.presets
+            f'<button type="button" data-run="{experiment.name}"' in document
+            for experiment in lesson.presets
         )
 
 
@@ -113,11 +114,11 @@ def test_the_document_of_every_lesson_has_its_text_and_no_answer(lesson):
     page = lesson_document(lesson, article_html(lesson, address, "live"), home="live", root="page/")
     assert page.count("<form") == len(lesson.questions)
     assert all(f'data-run="{preset.name}"' in page for preset in lesson.presets)
-    said = in_script(lesson_data(lesson))
+    script = in_script(lesson_data(lesson))
     for question in lesson.questions:
         why = str(question.why(finished(lesson.name, question.params).states()))
         assert why not in page
-        assert in_script(why)[1:-1] not in said
+        assert in_script(why)[1:-1] not in script
 
 
 def test_what_a_lesson_says_cannot_end_the_script_or_an_attribute():

@@ -17,12 +17,12 @@ AXIS = {"low": 0.0, "high": 10.0, "ticks": [0, 5], "words": ["0", "5"]}
 def run_of(*things, series=(), end=None) -> dict:
     """A run of six steps, whose step 3 shows things."""
     steps = [{"shown": [] if k != 3 else [*range(len(things))]} for k in range(6)]
-    one = {"name": "rmse", "head": "", "yLabel": "RMSE (m)", "x": AXIS, "y": AXIS}
+    chart = {"name": "rmse", "head": "", "yLabel": "RMSE (m)", "x": AXIS, "y": AXIS}
     return {
         "steps": steps,
         "things": list(things),
         "series": list(series),
-        "charts": {"RMSE": one} if series else {},
+        "charts": {"RMSE": chart} if series else {},
         "end": end,
     }
 
@@ -39,8 +39,8 @@ def drawn(run: dict, *names: str, hide=()) -> tuple[ElementTree.Element, int]:
 
 def points(svg: ElementTree.Element) -> list[np.ndarray]:
     return [
-        np.array([pair.split(",") for pair in one.attrib["points"].split()], float)
-        for one in svg.iter("polyline")
+        np.array([pair.split(",") for pair in polyline.attrib["points"].split()], float)
+        for polyline in svg.iter("polyline")
     ]
 
 
@@ -51,7 +51,9 @@ def test_a_series_is_drawn_over_the_steps_with_a_line_at_the_step():
     steps = np.diff(line, axis=0)
     assert np.allclose(steps, steps[0], atol=0.1), "equal steps, equal rises"
     assert steps[0][0] > 0 > steps[0][1], "up is up"
-    (mark,) = (one for one in svg.iter("line") if one.attrib["x1"] == one.attrib["x2"])
+    (mark,) = (
+        element for element in svg.iter("line") if element.attrib["x1"] == element.attrib["x2"]
+    )
     assert float(mark.attrib["x1"]) == pytest.approx(line[3, 0], abs=0.1)
     assert line[:, 0].max() <= WIDTH
 
@@ -85,7 +87,7 @@ def test_a_plot_has_its_curve_its_marks_and_stays_within_its_axes():
     (dot,) = svg.iter("circle")
     assert float(dot.attrib["cy"]) == pytest.approx(line[1, 1], abs=0.1)
     assert float(dot.attrib["cx"]) == pytest.approx(line[1, 0], abs=0.1)
-    assert [one.text for one in svg.iter("text")][-1] == "mm, over angle"
+    assert [label.text for label in svg.iter("text")][-1] == "mm, over angle"
 
 
 def test_what_a_story_hides_is_hidden_on_paper_too():
@@ -97,7 +99,7 @@ def test_charts_stand_below_each_other_and_what_is_not_there_is_left_out():
     run = run_of(plot(), series=[series([0, 1, 2, 3, 4, 5])])
     svg, high = drawn(run, "cost", "rmse", "nothing")
     assert high == 2 * ROW
-    places = [one.attrib["transform"] for one in svg.findall("g")]
+    places = [group.attrib["transform"] for group in svg.findall("g")]
     assert places == ["translate(0 0)", f"translate(0 {ROW})"]
     assert charts_svg(run, 3, ["nothing"]) == ("", 0)
     assert charts_svg(run, 0, ["cost"]) == ("", 0)

@@ -24,7 +24,7 @@ def curve(x, y, kind: Any = "line") -> Curve:
 )
 def test_two_curves_of_a_chart_keep_their_own_points_and_gaps(kinds):
     given = [([3, 0, 1], [1, 2, float("nan")], kinds[0]), ([0.5, 2.5], [4, 3], kinds[1])]
-    first, second = chart_of([curve(*one) for one in given])["curves"]
+    first, second = chart_of([curve(*arguments) for arguments in given])["curves"]
     assert (first["x"], first["y"], first["kind"]) == ([0, 1, 3], [2, None, 1], kinds[0])
     assert (second["x"], second["y"], second["kind"]) == ([0.5, 2.5], [4, 3], kinds[1])
 

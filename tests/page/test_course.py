@@ -39,8 +39,11 @@ def card(name: str, **given) -> Card:
 
 def test_the_course_is_told_in_six_chapters():
     assert list(TODAY) == list(NAMES)
-    found = {name: [one.name for one in course().values() if one.chapter == name] for name in NAMES}
-    assert found == TODAY
+    chapters = {
+        name: [lesson.name for lesson in course().values() if lesson.chapter == name]
+        for name in NAMES
+    }
+    assert chapters == TODAY
     assert [name for names in TODAY.values() for name in names] == list(course())
 
 
@@ -60,7 +63,7 @@ def test_a_lesson_without_a_chapter_stands_behind_them_all():
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "message"),
     [
         (
             {"chapter": "move"},
@@ -73,8 +76,8 @@ def test_a_lesson_without_a_chapter_stands_behind_them_all():
         ({"minutes": 12.5}, "minutes is a whole number of minutes, not 12.5"),
     ],
 )
-def test_a_chapter_is_one_of_six_words(given, said):
-    with pytest.raises(ValueError, match=said):
+def test_a_chapter_is_one_of_six_words(given, message):
+    with pytest.raises(ValueError, match=message):
         replace(fake.lesson, **given)
 
 
@@ -82,7 +85,7 @@ def test_a_card_says_how_long_it_takes_and_what_it_builds_on():
     first = card("a", title="RANSAC", chapter="See", minutes=25)
     second = card("b", title="<B>", chapter="See", needs=("a", "c", "gone"), summary="1 < 2")
     third = card("c", title="The pinhole camera", chapter="Move")
-    cards = sorted([first, second, third], key=lambda one: place(one.chapter, 1, one.name))
+    cards = sorted([first, second, third], key=lambda entry: place(entry.chapter, 1, entry.name))
     html = course_document(cards, root="page/")
     facts = re.findall(r'<p class="facts">([^<]*)<', html)
     assert facts == ["20 min", "25 min", "20 min · after RANSAC, the pinhole camera"]

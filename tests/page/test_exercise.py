@@ -28,7 +28,7 @@ def test_every_lesson_s_page_has_its_exercises_and_knows_the_course(lesson):
         assert starter(exercise) in page
         assert "\n".join(commands(exercise)) in page
     course = json.loads(page.partition("const COURSE = ")[2].partition(";")[0])
-    assert [one["name"] for one in course] == list(catalog())
+    assert [entry["name"] for entry in course] == list(catalog())
     assert 'data-address="?lesson=LESSON"' in page
 
 
@@ -43,15 +43,15 @@ def test_a_lesson_without_exercises_has_no_such_section():
 def test_what_the_checks_found_is_said_in_the_words_of_the_terminal(exercise):
     for function in (exercise.mistakes[0].function, exercise.alternatives[0]):
         report = grade_function(function, exercise, hidden=False, file="mine.py")
-        data, said = report_data(report), terminal(report)
+        data, text = report_data(report), terminal(report)
         assert data["said"] == counted(report)
         for check in data["checks"]:
             assert (
                 f"{check['mark']} {check['word']:<7} {check['points']:>5}  {check['promise']}"
-                in said
+                in text
             )
-            assert check["message"] in said
-        assert data["mistake"] in said
+            assert check["message"] in text
+        assert data["mistake"] in text
         assert bool(data["mistake"]) == (report.mistake is not None)
 
 

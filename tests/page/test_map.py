@@ -30,7 +30,9 @@ def drawn(names, needs=NEEDS, chapters=CHAPTERS) -> str:
 def course_drawn() -> tuple[dict[str, tuple[str, ...]], dict[str, list[str]]]:
     lessons = course().values()
     needs = {lesson.name: lesson.needs for lesson in lessons}
-    return needs, {name: [one.name for one in lessons if one.chapter == name] for name in NAMES}
+    return needs, {
+        name: [member.name for member in lessons if member.chapter == name] for name in NAMES
+    }
 
 
 def test_a_lesson_stands_right_of_all_that_it_needs():
@@ -69,14 +71,17 @@ def test_no_two_lines_from_different_lessons_lie_on_each_other():
     needs, chapters = course_drawn()
     html = drawn({name: name for name in needs}, needs, chapters)
     upright = []
-    for one, path in re.findall(r'data-way="(\w+) \w+" d="([^"]*)"', html):
+    for need, path in re.findall(r'data-way="(\w+) \w+" d="([^"]*)"', html):
         turn = re.search(r"Q(\d+) (\d+) .*?Q\d+ (\d+) ", path)
         if turn is not None:
             x, *ends = map(int, turn.groups())
-            upright.append((one, x, *sorted(ends)))
+            upright.append((need, x, *sorted(ends)))
     assert len(upright) > 8
-    for (one, x, low, high), (other, x_other, low_other, high_other) in combinations(upright, 2):
-        assert one == other or x != x_other or high <= low_other or high_other <= low, (one, other)
+    for (need, x, low, high), (other, x_other, low_other, high_other) in combinations(upright, 2):
+        assert need == other or x != x_other or high <= low_other or high_other <= low, (
+            need,
+            other,
+        )
 
 
 def test_no_line_passes_behind_a_lesson():
@@ -87,17 +92,17 @@ def test_no_line_passes_behind_a_lesson():
             name: (int(x), int(y))
             for name, x, y in re.findall(r'data-name="(\w+)"[^>]*><rect x="(\d+)" y="(\d+)"', html)
         }
-        for one, other, path in re.findall(r'data-way="(\w+) (\w+)" d="([^"]*)"', html):
+        for need, other, path in re.findall(r'data-way="(\w+) (\w+)" d="([^"]*)"', html):
             end = boxes[other][1] + HEIGHT // 2
             start = (
-                int(re.findall(r"V\d+Q(\d+)", path)[0]) if "V" in path else boxes[one][0] + WIDTH
+                int(re.findall(r"V\d+Q(\d+)", path)[0]) if "V" in path else boxes[need][0] + WIDTH
             )
             behind = [
                 name
                 for name, (x, y) in boxes.items()
                 if y < end < y + HEIGHT and start < x + WIDTH and x < boxes[other][0]
             ]
-            assert behind == [], (one, other)
+            assert behind == [], (need, other)
 
 
 def test_a_long_title_has_two_lines_and_is_read_as_one():
@@ -109,4 +114,4 @@ def test_a_long_title_has_two_lines_and_is_read_as_one():
 def test_the_course_puts_every_lesson_after_what_it_needs():
     lessons = list(course().values())
     for i, lesson in enumerate(lessons):
-        assert set(lesson.needs) <= {one.name for one in lessons[:i]}, lesson.name
+        assert set(lesson.needs) <= {earlier.name for earlier in lessons[:i]}, lesson.name

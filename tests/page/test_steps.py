@@ -30,8 +30,8 @@ def test_a_step_is_made_once_for_all_who_ask():
     timeline = Timeline(fake.lesson, fake.Params()).complete()
     steps = Steps(timeline)
     with ThreadPoolExecutor(8) as pool:
-        found = list(pool.map(steps.step, [2] * 40))
-    assert all(one is found[0] for one in found)
+        made = list(pool.map(steps.step, [2] * 40))
+    assert all(step is made[0] for step in made)
 
 
 def test_the_code_of_a_step_is_its_moment():
@@ -43,7 +43,9 @@ def test_the_code_of_a_step_is_its_moment():
         assert code is not None
         _, first = step.moment.source
         assert first + code["line"] == step.moment.line
-        assert [row[0] for row in code["locals"]] == [one.name for one in step.moment.variables]
+        assert [row[0] for row in code["locals"]] == [
+            variable.name for variable in step.moment.variables
+        ]
         assert f'data-line="{code["line"]}"' in steps.things[code["source"]]["html"]
 
 

@@ -78,7 +78,8 @@ def frames() -> list[tuple[Frame, Image.Image]]:
     rng = np.random.default_rng(0)
     noise = [rng.integers(0, 255, (31, 41, 3), np.uint8) for _ in range(3)]
     return [
-        (Frame(before=i, step=i, ticks=4 + i), Image.fromarray(one)) for i, one in enumerate(noise)
+        (Frame(before=i, step=i, ticks=4 + i), Image.fromarray(pixels))
+        for i, pixels in enumerate(noise)
     ]
 
 

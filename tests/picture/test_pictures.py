@@ -76,13 +76,15 @@ def test_the_dark_ground_is_that_of_the_page_and_of_its_scene():
 def test_an_svg_has_a_circle_for_each_point_and_a_line_for_each_segment(icp):
     style = Style(width=700, chart=False)
     moment = icp.moment(3, style)
-    inside = {path: one for path, one in moment.scene.items() if path != "grid"}  # goes beyond
+    inside = {
+        path: primitive for path, primitive in moment.scene.items() if path != "grid"
+    }  # goes beyond
     moment = replace(moment, scene=inside)
     root = ElementTree.fromstring(svg_of(moment, style))
-    (vectors,) = (one for one in root.iter(f"{SVG}g") if one.get("class") == "vectors")
+    (vectors,) = (group for group in root.iter(f"{SVG}g") if group.get("class") == "vectors")
     shapes = shapes_of(moment.scene)
-    points = sum(len(one.p) for one in shapes if isinstance(one, Discs))
-    lines = sum(len(one.ends) for one in shapes if isinstance(one, Strokes))
+    points = sum(len(shape.p) for shape in shapes if isinstance(shape, Discs))
+    lines = sum(len(shape.ends) for shape in shapes if isinstance(shape, Strokes))
     assert len(list(vectors.iter(f"{SVG}circle"))) == points > 0
     assert len(list(vectors.iter(f"{SVG}line"))) == lines > 0
 
@@ -93,9 +95,9 @@ def test_an_svg_has_its_surfaces_as_one_picture_and_its_words_as_text():
     run = WholeRun.of(lesson, lesson.params(), quiet)
     root = ElementTree.fromstring(svg_of(run.moment(0, style), style))
     assert len(list(root.iter(f"{SVG}image"))) == 1
-    words = " ".join("".join(one.itertext()) for one in root.iter(f"{SVG}text"))
+    words = " ".join("".join(text.itertext()) for text in root.iter(f"{SVG}text"))
     assert run.timeline[0].caption.text.split()[0] in words
-    assert any(one.get("class") == "chart" for one in root.iter(f"{SVG}g"))
+    assert any(group.get("class") == "chart" for group in root.iter(f"{SVG}g"))
 
 
 def test_a_picture_without_chart_and_caption_is_lower(icp):
@@ -121,9 +123,9 @@ def test_words_have_letters_for_greek_arrows_and_powers():
 
 def test_lines_of_words_fit_and_lose_none():
     text = "A caption that is longer than one line of the picture is broken at its spaces."
-    found = letters.lines(text, 16, 200)
-    assert " ".join(found) == text
-    assert max(letters.width(line, 16) for line in found) <= 200
+    lines = letters.lines(text, 16, 200)
+    assert " ".join(lines) == text
+    assert max(letters.width(line, 16) for line in lines) <= 200
 
 
 def test_a_step_counts_from_the_end_too(tmp_path, capsys):
@@ -139,7 +141,7 @@ def test_a_step_counts_from_the_end_too(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (["-o", "x.bmp"], ".png, .svg or .webp"),
         (["-o", "x"], ".png, .svg or .webp"),
@@ -163,16 +165,16 @@ def test_a_step_counts_from_the_end_too(tmp_path, capsys):
     ],
 )
 def test_what_cannot_be_is_one_line_and_writes_nothing(
-    words, said, tmp_path, *, monkeypatch, capsys
+    words, message, tmp_path, *, monkeypatch, capsys
 ):
     monkeypatch.chdir(tmp_path)
     assert main(["picture", FAKE, *words]) == 2
-    assert said in told(capsys)
+    assert message in told(capsys)
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (["-o", "x.png", "--step", "5000"], "--step 5000: a run has 5000 steps at most"),
         (["-o", "x.png", "--step", "-5001"], "5000 steps at most"),
@@ -184,12 +186,12 @@ def test_what_cannot_be_is_one_line_and_writes_nothing(
     ],
 )
 def test_what_is_known_before_the_run_is_said_before_it(
-    words, said, *, tmp_path, monkeypatch, capsys
+    words, message, *, tmp_path, monkeypatch, capsys
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(WholeRun, "of", lambda *_: pytest.fail("the run was computed"))
     assert main(["picture", FAKE, *words]) == 2
-    assert said in told(capsys)
+    assert message in told(capsys)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -68,15 +68,15 @@ def boxes(words: list[Word]) -> np.ndarray:
     lens = Lens.of(View(eye=(0.0, -5.0, 0.0)), (400, 250))
     root = ElementTree.fromstring(f"<g>{labels_svg(words, lens, theme(dark=False))}</g>")
     names = ("x", "y", "width", "height")
-    rows = [[float(one.attrib[name]) for name in names] for one in root.iter("rect")]
+    rows = [[float(rect.attrib[name]) for name in names] for rect in root.iter("rect")]
     return np.array(rows).reshape(-1, 4)
 
 
 def test_words_at_one_place_do_not_cover_each_other():
-    found = boxes([Word(text=f"word {i}", p=np.zeros(3)) for i in range(4)])
-    assert len(found) == 4
-    tops = np.sort(found[:, 1])
-    assert (np.diff(tops) >= found[0, 3] - 0.1).all()
+    rects = boxes([Word(text=f"word {i}", p=np.zeros(3)) for i in range(4)])
+    assert len(rects) == 4
+    tops = np.sort(rects[:, 1])
+    assert (np.diff(tops) >= rects[0, 3] - 0.1).all()
 
 
 def test_a_word_at_the_side_is_whole_and_one_outside_is_left_out():

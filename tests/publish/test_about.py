@@ -42,43 +42,43 @@ def text_of(out: Path, name: str) -> str:
 
 
 def meta_of(page: str) -> dict[str, str]:
-    found = re.findall(r'<meta (?:name|property)="([\w:]+)" content="([^"]*)"', page)
-    return {key: unescape(value) for key, value in found}
+    pairs = re.findall(r'<meta (?:name|property)="([\w:]+)" content="([^"]*)"', page)
+    return {key: unescape(value) for key, value in pairs}
 
 
 @pytest.mark.parametrize(("path", "title"), [("", None), ("fake/", TINY.title)])
 def test_a_page_tells_others_its_title_its_address_and_its_picture(named, path, title):
     text = text_of(named, f"{path}index.html")
-    said = meta_of(text)
+    meta = meta_of(text)
     course = "Geometry workbench"
     assert f"<title>{title} · {course}</title>" in text or title is None
-    assert said["og:title"] == (title or course)
-    assert said["og:site_name"] == course
-    assert said["og:description"] == said["description"]
-    assert len(said["description"]) > 10
-    assert said["og:url"] == f"{BASE}/{path}"
+    assert meta["og:title"] == (title or course)
+    assert meta["og:site_name"] == course
+    assert meta["og:description"] == meta["description"]
+    assert len(meta["description"]) > 10
+    assert meta["og:url"] == f"{BASE}/{path}"
     assert f'<link rel="canonical" href="{BASE}/{path}">' in text
-    assert said["twitter:card"] == "summary_large_image"
-    assert said["og:image"] == f"{BASE}/{path}card.png"
+    assert meta["twitter:card"] == "summary_large_image"
+    assert meta["og:image"] == f"{BASE}/{path}card.png"
     picture = Image.open(named / path / "card.png")
     assert (picture.format, picture.size) == ("PNG", CARD)
-    assert CARD == (int(said["og:image:width"]), int(said["og:image:height"])) == (1200, 630)
+    assert CARD == (int(meta["og:image:width"]), int(meta["og:image:height"])) == (1200, 630)
     assert np.asarray(picture.convert("RGB")).std() > 5, "something is drawn on it"
-    assert said["og:image:alt"]
+    assert meta["og:image:alt"]
 
 
 def test_without_an_address_nothing_absolute_is_said(out):
     for page in sorted(out.rglob("*.html")):
-        said = meta_of(page.read_text(encoding="utf-8"))
-        assert not {"og:url", "og:image"} & said.keys()
+        meta = meta_of(page.read_text(encoding="utf-8"))
+        assert not {"og:url", "og:image"} & meta.keys()
         assert "canonical" not in page.read_text(encoding="utf-8")
     assert meta_of(text_of(out, "fake/index.html"))["twitter:card"] == "summary"
-    assert not [one for one in out.rglob("*") if one.name in ("card.png", "sitemap.xml")]
+    assert not [file for file in out.rglob("*") if file.name in ("card.png", "sitemap.xml")]
 
 
 def test_the_map_names_the_course_and_every_lesson(named):
-    found = ElementTree.parse(named / "sitemap.xml").getroot()
-    places = [one.text for one in found.iter("{http://www.sitemaps.org/schemas/sitemap/0.9}loc")]
+    root = ElementTree.parse(named / "sitemap.xml").getroot()
+    places = [loc.text for loc in root.iter("{http://www.sitemaps.org/schemas/sitemap/0.9}loc")]
     assert places == [f"{BASE}/", f"{BASE}/fake/", f"{BASE}/other/"]
 
 
@@ -120,7 +120,7 @@ class Links(HTMLParser):
 def test_what_is_missing_leads_home_from_any_depth(named, missing):
     links = Links(f"{BASE}/{missing}")
     links.feed(text_of(named, "404.html"))
-    ours = [one for one in links.found if not one.startswith("https://creativecommons.org")]
+    ours = [link for link in links.found if not link.startswith("https://creativecommons.org")]
     assert f"{BASE}/index.html" in ours
     assert f"{BASE}/other/index.html" in ours
     for address in ours:
@@ -167,8 +167,8 @@ def test_a_lesson_of_somebody_else_is_not_said_to_be_ours(out):
 
 def test_the_page_of_licences_names_them_all_and_what_is_accessible(out):
     page = text_of(out, "notices.html")
-    for said in (about.CC_BY, about.CC_BY_TEXT, "page/third-parties.txt", "pip install"):
-        assert said in page
+    for text in (about.CC_BY, about.CC_BY_TEXT, "page/third-parties.txt", "pip install"):
+        assert text in page
     assert ">Accessibility</h2>" in page
     assert ">What does not hold</h3>" in page
     assert "https://creativecommons.org/licenses/by/4.0/legalcode" in text_of(
@@ -178,8 +178,12 @@ def test_the_page_of_licences_names_them_all_and_what_is_accessible(out):
 
 def test_the_source_is_linked_where_the_package_says_where_it_is(monkeypatch):
     monkeypatch.delenv(about.ADDRESS, raising=False)
-    said = [["Documentation, https://a.example", "Source, https://b.example/X"], ["Source, x"], []]
-    for urls, address in zip(said, ("https://b.example/X", None, None), strict=True):
+    all_urls = [
+        ["Documentation, https://a.example", "Source, https://b.example/X"],
+        ["Source, x"],
+        [],
+    ]
+    for urls, address in zip(all_urls, ("https://b.example/X", None, None), strict=True):
         monkeypatch.setattr(
             about, "metadata", lambda _, urls=urls: type("M", (), {"get_all": lambda *_: urls})()
         )

@@ -55,30 +55,30 @@ def read_lock(folder: Path) -> dict:
 
 
 def test_a_release_gives_what_a_page_needs_trimmed_and_named_by_its_version(release):
-    found = python.python_from(str(release))
-    assert found.address == "python/0.99.1/"
-    assert {*found.files} == {
+    interpreter = python.python_from(str(release))
+    assert interpreter.address == "python/0.99.1/"
+    assert {*interpreter.files} == {
         *python.START,
         python.COMPILED[1],
         *(f"{name}-2.1.zip" for name in PACKED),
         "LICENSES.txt",
     }
-    lock = json.loads(found.files[python.LOCK])
+    lock = json.loads(interpreter.files[python.LOCK])
     assert {*lock["packages"]} == {*PACKED}
     for package in lock["packages"].values():
-        content = found.files[package["file_name"]]
+        content = interpreter.files[package["file_name"]]
         assert package["sha256"] == hashlib.sha256(content).hexdigest()
-    with zipfile.ZipFile(io.BytesIO(found.files["numpy-2.1.zip"])) as archive:
+    with zipfile.ZipFile(io.BytesIO(interpreter.files["numpy-2.1.zip"])) as archive:
         assert archive.namelist() == ["numpy/core.py"]
         assert archive.read("numpy/core.py") == b"x = 1\n"
-    assert b"0.99.1" in found.files["LICENSES.txt"]
-    assert found == python.python_from(str(release)), "the same folder gives the same bytes"
+    assert b"0.99.1" in interpreter.files["LICENSES.txt"]
+    assert interpreter == python.python_from(str(release)), "the same folder gives the same bytes"
 
 
 def test_the_real_release_is_taken(pyodide):
-    found = python.python_from(str(pyodide))
-    assert 20_000_000 < sum(map(len, found.files.values())) < 32_000_000
-    assert "pyodide.asm.js" in found.files
+    interpreter = python.python_from(str(pyodide))
+    assert 20_000_000 < sum(map(len, interpreter.files.values())) < 32_000_000
+    assert "pyodide.asm.js" in interpreter.files
 
 
 @pytest.mark.parametrize(

@@ -60,14 +60,14 @@ def test_the_licences_of_what_is_in_the_pages_come_along(published):
     out, files = published
     assert files["page/third-parties.txt"] > 15_000
     text = (out / "page" / "third-parties.txt").read_text(encoding="utf-8")
-    for said in (
+    for name in (
         "SIL OPEN FONT LICENSE Version 1.1",
         "Apache License",
         "MIT License",
         "STIX Fonts Project",
         "viser",
     ):
-        assert said in text
+        assert name in text
     assert 'href="page/third-parties.txt"' in (out / "notices.html").read_text(encoding="utf-8")
 
 
@@ -78,9 +78,9 @@ def test_the_numbers_are_those_of_the_run(published):
     assert [step["caption"] for step in data["steps"]] == [
         step.caption.text for step in timeline.known()
     ]
-    for one in data["series"]:
-        values = timeline.series()[one["path"]].values
-        assert one["values"] == [None if v != v else pytest.approx(v, rel=1e-5) for v in values]
+    for series in data["series"]:
+        values = timeline.series()[series["path"]].values
+        assert series["values"] == [None if v != v else pytest.approx(v, rel=1e-5) for v in values]
     assert data["scene"]
     assert data["command"] == "workbench show fake.py"
 
@@ -121,8 +121,8 @@ SWEPT = replace(
 
 
 def test_a_sweep_is_a_knob_whose_runs_are_shared_with_presets_and_the_default():
-    found = [(run.name, run.file, run.recorded) for run in runs.runs_of(SWEPT, "all")]
-    assert found == [
+    rows = [(run.name, run.file, run.recorded) for run in runs.runs_of(SWEPT, "all")]
+    assert rows == [
         ("default", "default", True),
         ("half", "half", True),
         ("angle:0", "angle.0", False),
@@ -168,27 +168,27 @@ def test_runs_of_a_sweep_are_published_without_a_recording(tmp_path):
 
 def test_a_sweep_of_another_run_has_the_params_of_that_run():
     other = replace(SMALL, sweeps=(Sweep("steps", (2, 3), run="half"),))
-    found = {run.name: run for run in runs.runs_of(other)}
+    by_name = {run.name: run for run in runs.runs_of(other)}
     half = other.preset("half").params
-    assert found["half/steps:2"].params == replace(half, steps=2)
-    assert found["half/steps:2"].file == "half_steps.2"
+    assert by_name["half/steps:2"].params == replace(half, steps=2)
+    assert by_name["half/steps:2"].file == "half_steps.2"
     (dial,) = runs.sweep_data(other)
     assert (dial["knob"], dial["run"], dial["runs"][-1]) == ("steps", "half", "half")
 
 
 @pytest.mark.parametrize(
-    ("recordings", "found"),
+    ("recordings", "names"),
     [("all", {"default", "half", "far"}), ("linked", {"default", "far"}), ("none", set())],
 )
 def test_recordings_are_of_all_runs_of_those_that_the_text_names_or_of_none(
-    tmp_path, recordings, found
+    tmp_path, recordings, names
 ):
     page = tmp_path / "page.md"
     page.write_text("# A\n\nThe [far](run:far@2) run.\n", encoding="utf-8")
     half = SMALL.presets[0]
     far = replace(half, name="far", params=replace(half.params, angle=31.0))
     lesson = replace(SMALL, page=page, presets=(half, far), questions=())
-    assert {run.name for run in runs.runs_of(lesson, recordings) if run.recorded} == found
+    assert {run.name for run in runs.runs_of(lesson, recordings) if run.recorded} == names
 
 
 def test_two_runs_that_would_have_one_file_are_refused(tmp_path, rendered):

@@ -88,7 +88,7 @@ DRAWS = ("draw.py", "drawing.py", "flat.py", "space.py")  # where lessons draw
 
 @pytest.mark.parametrize("name", catalog())
 def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
-    found = {str(file.relative_to(ROOT)) for file in sources_of(catalog()[name])}
+    files = {str(file.relative_to(ROOT)) for file in sources_of(catalog()[name])}
     assert {
         f"lessons/{name}/page.md",
         f"lessons/{name}/lesson.py",
@@ -98,7 +98,7 @@ def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
         "workbench/recording/write.py",
         "workbench/wire/primitives.py",
         "workbench/wire/packing.py",
-    } <= found
+    } <= files
     others = tuple(f"lessons/{other}/" for other in catalog() if other != name)
     beside = (
         "workbench/cli.py",
@@ -107,7 +107,7 @@ def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
         "workbench/viewer/server.py",
         "workbench/publish/site.py",
     )
-    assert not [file for file in found if file.startswith((*others, *beside))]
+    assert not [file for file in files if file.startswith((*others, *beside))]
 
 
 def test_a_lesson_depends_on_its_own_algorithms_only():

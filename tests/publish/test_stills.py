@@ -25,7 +25,7 @@ from workbench.run.timeline import Timeline
 from workbench.story import has_story, story_of
 
 SVG = "{http://www.w3.org/2000/svg}"
-TOLD = [name for name, one in catalog().items() if has_story(one)]
+TOLD = [name for name, lesson in catalog().items() if has_story(lesson)]
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +62,7 @@ def test_an_experiment_has_a_picture_and_its_line(tmp_path):
     figures = re.findall(r'<img src="stills/(\w+)\.svg"[^>]*><figcaption><b>([^<]*)</b>', page)
     assert figures == [("default", "The default run."), (preset.name, f"{preset.title}.")]
     site.publish(tmp_path, [replace(lesson, presets=())], recordings="none")
-    assert [one.name for one in (tmp_path / "fake" / "stills").iterdir()] == ["default.svg"]
+    assert [file.name for file in (tmp_path / "fake" / "stills").iterdir()] == ["default.svg"]
 
 
 def test_a_picture_that_is_gone_is_made_again(out, rendered):
@@ -75,7 +75,7 @@ def test_a_picture_that_is_gone_is_made_again(out, rendered):
 @pytest.mark.parametrize("name", TOLD)
 def test_a_story_s_pictures_are_of_runs_that_its_page_has(name):
     lesson = catalog()[name]
-    runs = {"default", *(one.name for one in (*lesson.presets, *lesson.questions))}
+    runs = {"default", *(named.name for named in (*lesson.presets, *lesson.questions))}
     stills = stills_of(lesson)
     story = story_of(lesson, "site")
     assert story is not None
@@ -124,12 +124,12 @@ def test_a_legend_has_its_colours_and_its_bars_on_lines_that_fit():
     svg, below = _legend({**scene, "b": Points(p, bar)}, 640, 100, colors=theme(dark=False))
     root = ElementTree.fromstring(f"<svg>{svg}</svg>")
     texts = list(root.iter("text"))
-    words = ["".join(one.itertext()) for one in texts]
+    words = ["".join(text.itertext()) for text in texts]
     assert words[8:] == ["a name & number 8", "Height <z>: 0", "2 m"]
-    rows = sorted({float(one.attrib["y"]) for one in texts})
+    rows = sorted({float(text.attrib["y"]) for text in texts})
     assert len(rows) == 3
     assert below > rows[-1]
-    ends = [float(one.attrib["x"]) + 7 * len(w) for one, w in zip(texts, words, strict=True)]
+    ends = [float(text.attrib["x"]) + 7 * len(w) for text, w in zip(texts, words, strict=True)]
     assert max(ends) < 660
     assert len(list(root.iter("stop"))) == 9
 

@@ -19,7 +19,7 @@ BUDGET = 1_500_000
 """Bytes of a story on a site before its first what-if, as a static server sends them: compressed
 where that helps.
 """
-TOLD = [name for name, one in catalog().items() if has_story(one)]
+TOLD = [name for name, entry in catalog().items() if has_story(entry)]
 
 
 @pytest.fixture(scope="module")

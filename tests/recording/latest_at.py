@@ -14,7 +14,7 @@ def rows(path: Path) -> list[tuple[int, bytes, str, dict[str, Any]]]:
     """Return every logged row in the order in which it counts: step (-1 for static), row id,
     entity, components.
     """
-    found = []
+    logged = []
     for chunk in read_chunks(path):
         columns = chunk.to_record_batch().to_pydict()
         ids = columns.pop("rerun.controls.RowId")
@@ -23,8 +23,8 @@ def rows(path: Path) -> list[tuple[int, bytes, str, dict[str, Any]]]:
             components = {
                 name: column[i] for name, column in columns.items() if column[i] is not None
             }
-            found.append((step, bytes(row_id), chunk.entity_path, components))
-    return sorted(found, key=lambda row: row[:3])
+            logged.append((step, bytes(row_id), chunk.entity_path, components))
+    return sorted(logged, key=lambda row: row[:3])
 
 
 def shown_at(

@@ -69,10 +69,10 @@ def test_bars_stand_on_zero():
 
 
 def test_the_frame_of_a_chart_changes_with_its_range_alone():
-    one, same_range = curve([0, 1, 2], [0, 1, 2]), curve([0, 1, 2], [0, 2, 1])
-    assert scales([one]) == scales([same_range])
-    assert scales([one]) != scales([curve([0, 1, 2], [0, 1, 3])])
-    assert {"0", "1", "2", "x", "a"} <= set(words_of(one).labels.as_arrow_array().to_pylist())
+    original, same_range = curve([0, 1, 2], [0, 1, 2]), curve([0, 1, 2], [0, 2, 1])
+    assert scales([original]) == scales([same_range])
+    assert scales([original]) != scales([curve([0, 1, 2], [0, 1, 3])])
+    assert {"0", "1", "2", "x", "a"} <= set(words_of(original).labels.as_arrow_array().to_pylist())
 
 
 def test_a_colour_bar_has_its_ends_its_unit_and_its_colours():

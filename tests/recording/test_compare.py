@@ -57,16 +57,17 @@ def test_curves_of_both_keep_their_values_and_are_told_apart(files):
         recording = open_recording(path)
         for name in recording.curves:
             np.testing.assert_array_equal(values[f"{root}/scalars/{name}"], recording.scalars[name])
-    one, two = styles["/a/scalars/error"], styles["/b/scalars/error"]
-    assert one["SeriesLines:names"] == ["Distance · A"]
-    assert two["SeriesLines:names"] == ["Distance · B"]
-    assert one["SeriesLines:colors"] != two["SeriesLines:colors"]
+    first, second = styles["/a/scalars/error"], styles["/b/scalars/error"]
+    assert first["SeriesLines:names"] == ["Distance · A"]
+    assert second["SeriesLines:names"] == ["Distance · B"]
+    assert first["SeriesLines:colors"] != second["SeriesLines:colors"]
 
 
 def test_what_differs_is_said(files):
     a, b, both = files
     differences = {
-        name: (one, two) for name, one, two in differences_of(open_recording(a), open_recording(b))
+        name: (first, second)
+        for name, first, second in differences_of(open_recording(a), open_recording(b))
     }
     assert differences["angle"] == ("90", "45")
     assert differences["colors"] == ("field", "classes")
@@ -117,7 +118,7 @@ def test_runs_of_two_lessons_are_refused(files, tmp_path):
     ],
 )
 def test_a_layout_that_is_none_is_damage(files, tmp_path, monkeypatch, *, odd):
-    monkeypatch.setattr("workbench.recording.write.to_json", lambda *what: odd)
+    monkeypatch.setattr("workbench.recording.write.to_json", lambda *_: odd)
     bad = record(fake.lesson, tmp_path / "bad.rrd", steps=2)
     for pair in ((bad, files[0]), (files[0], bad)):
         with pytest.raises(InputError, match=r"bad\.rrd: is damaged"):

@@ -95,8 +95,8 @@ def test_recordings_of_other_programs_are_refused(tmp_path):
 def test_bytes_behind_the_end_are_left_alone_without_a_word(fake_file, tmp_path):
     longer = tmp_path / "longer.rrd"
     longer.write_bytes(fake_file.read_bytes() + b"junk and more junk")
-    said = f"from workbench import open_recording; print(len(open_recording({str(longer)!r})))"
-    done = subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, check=True)
+    code = f"from workbench import open_recording; print(len(open_recording({str(longer)!r})))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert (done.stdout, done.stderr) == (f"{len(open_recording(fake_file))}\n", "")
 
 

@@ -25,16 +25,16 @@ def scenes(steps: int = 8):
     """A cloud of which other points are there at each step, in another order; coloured by a field
     at the end.
     """
-    found = []
+    clouds = []
     for k in range(steps):
         some = RNG.permutation(200)[: 100 + k]
-        found.append({"cloud": Points(P[some], COLORS[some], 0.01 + 0.001 * k)})
-    return [*found, {"cloud": Points(P, Field(P[:, 0], -1.0, 1.0, "x", "m"))}]
+        clouds.append({"cloud": Points(P[some], COLORS[some], 0.01 + 0.001 * k)})
+    return [*clouds, {"cloud": Points(P, Field(P[:, 0], -1.0, 1.0, "x", "m"))}]
 
 
-def recorded(shown, path, found):
+def recorded(shown, path, gathered):
     def fill(stream):
-        sink = RerunSink(stream, unions=found)
+        sink = RerunSink(stream, unions=gathered)
         for k, scene in enumerate(shown):
             sink.show(k, scene)
 
@@ -54,9 +54,9 @@ def there(path, step):
 
 def test_a_gathered_cloud_shows_what_it_showed(tmp_path):
     shown = scenes()
-    found = unions(shown)
-    assert found.keys() == {"cloud"}
-    with_union = recorded(shown, tmp_path / "a.rrd", found)
+    gathered = unions(shown)
+    assert gathered.keys() == {"cloud"}
+    with_union = recorded(shown, tmp_path / "a.rrd", gathered)
     without = recorded(shown, tmp_path / "b.rrd", {})
     for k in range(len(shown)):
         assert there(with_union, k) == there(without, k)

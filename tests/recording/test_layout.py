@@ -51,8 +51,8 @@ def viewer_up(ahead, eye_up) -> np.ndarray:
 def test_a_recording_is_seen_the_way_round_in_which_the_page_shows_it(view):
     eye = scene_view("", view, "").properties["EyeControls3D"]
     position, target, eye_up = (
-        np.array(one.as_arrow_array().to_pylist()[0], float)
-        for one in (eye.position, eye.look_target, eye.eye_up)
+        np.array(component.as_arrow_array().to_pylist()[0], float)
+        for component in (eye.position, eye.look_target, eye.eye_up)
     )
     away = position - target
     page_away = view.seen_from() - np.array(view.target)

@@ -46,11 +46,11 @@ def test_what_is_read_back_is_what_the_run_said(run):
     series = timeline.series()
     assert list(recording.scalars) == ["step", *series]
     np.testing.assert_array_equal(recording.scalars["step"], np.arange(len(timeline)))
-    for name, one in series.items():
-        np.testing.assert_array_equal(recording.scalars[name], one.values)
+    for name, curve in series.items():
+        np.testing.assert_array_equal(recording.scalars[name], curve.values)
         assert (recording.curves[name].name, recording.curves[name].unit) == (
-            one.scalar.name,
-            one.scalar.unit,
+            curve.scalar.name,
+            curve.scalar.unit,
         )
 
 
@@ -99,7 +99,7 @@ def test_what_is_kept_does_not_hang_on_earlier_recordings(run):
     timeline, path = run
     named = {entity for entity, columns in content(path) if "unit" in columns}
     assert named == {
-        entity_of("scalars", name) for name, one in timeline.series().items() if one.scalar.unit
+        entity_of("scalars", name) for name, curve in timeline.series().items() if curve.scalar.unit
     }
 
 
@@ -149,15 +149,15 @@ def content(path: Path) -> dict[tuple[str, tuple[str, ...]], bytes]:
         kept = [name for name in table.schema.names if not name.endswith(("RowId", "start_time"))]
         if kept:
             tables.setdefault((chunk.entity_path, tuple(kept)), []).append(table.select(kept))
-    found = {}
+    fingerprints = {}
     for key, parts in tables.items():
         sink = pa.BufferOutputStream()
         schema = pa.schema([field.remove_metadata() for field in parts[0].schema])
         whole = pa.concat_tables([part.cast(schema) for part in parts]).combine_chunks()
         with pa.ipc.new_stream(sink, schema) as writer:
             writer.write_table(whole)
-        found[key] = sha256(sink.getvalue()).digest()
-    return found
+        fingerprints[key] = sha256(sink.getvalue()).digest()
+    return fingerprints
 
 
 def texts_in(value):

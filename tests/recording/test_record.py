@@ -62,7 +62,7 @@ def test_what_is_asked_for_is_recorded_under_its_own_name(tmp_path, given, param
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "message"),
     [
         ({"stepps": 2}, "unknown parameter 'stepps'; did you mean steps"),
         ({"steps": 0}, "steps = 0: a whole number from 1 to 5000"),
@@ -79,10 +79,10 @@ def test_what_is_asked_for_is_recorded_under_its_own_name(tmp_path, given, param
         ({"params": {"steps": 2}}, "takes Params, not dict"),
     ],
 )
-def test_what_cannot_be_used_is_one_line_and_leaves_nothing(tmp_path, given, said):
+def test_what_cannot_be_used_is_one_line_and_leaves_nothing(tmp_path, given, message):
     with pytest.raises(InputError) as caught:
         record(fake.lesson, tmp_path / "a.rrd", **given)
-    assert said in str(caught.value)
+    assert message in str(caught.value)
     assert os.listdir(tmp_path) == []
 
 
@@ -96,10 +96,10 @@ def test_a_file_is_run_where_it_is_given_as_a_path(tmp_path):
 
 def test_a_recording_is_shown_in_one_short_line(fake_file, tmp_path):
     assert repr(open_recording(fake_file)) == "<Recording 'fake.rrd': 'fake', 6 steps, 'complete'>"
-    for lesson, said in ((MANY, "preset p"), (replace(MANY, name="\x1b[2J\n"), "x1b")):
+    for lesson, text in ((MANY, "preset p"), (replace(MANY, name="\x1b[2J\n"), "x1b")):
         path = record(lesson, tmp_path / f"{'a' * 200}.rrd", preset="p" * 300, force=True)
         shown = repr(open_recording(path))
-        assert said in shown
+        assert text in shown
         assert len(shown) < 200
         assert shown.isprintable()
 

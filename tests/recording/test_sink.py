@@ -79,7 +79,14 @@ class Heard:
 def test_what_is_gone_is_said_in_the_order_in_which_it_came():
     stream = Heard()
     sink = RerunSink(stream)
-    sink.show(0, {path: one for path, one in SCENES[2].items() if not isinstance(one, Table)})
+    sink.show(
+        0,
+        {
+            path: primitive
+            for path, primitive in SCENES[2].items()
+            if not isinstance(primitive, Table)
+        },
+    )
     came = [
         where
         for where in dict.fromkeys(stream.where)
@@ -289,9 +296,9 @@ def test_what_is_not_there_at_every_step_is_announced(tmp_path):
 
 def test_what_is_beside_the_scene_is_known_with_its_first_step():
     table = Table("Numbers", ("a",), (("1",),))
-    found = contents_of([{}, SCENES[0], {"t": table}, {"t": table}]).canvases
-    assert {"/charts/Basin", "/pictures/beside\\/photo", "/tables"} <= found.keys()
-    assert all(canvas.first == 1 for canvas in found.values())
+    canvases = contents_of([{}, SCENES[0], {"t": table}, {"t": table}]).canvases
+    assert {"/charts/Basin", "/pictures/beside\\/photo", "/tables"} <= canvases.keys()
+    assert all(canvas.first == 1 for canvas in canvases.values())
     late = contents_of([{}, {}, {"t": table}]).canvases
     assert late == {"/tables": Canvas("Numbers", 0.0, 0.0, 2)}
 

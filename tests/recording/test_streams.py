@@ -76,16 +76,16 @@ def test_equal_runs_have_equal_content_under_one_id_and_others_another(tmp_path)
         " import Timeline;from workbench.recording import record_bytes; run = Timeline(fake.lesson,"
         " fake.Params(steps=3)).complete();Path(sys.argv[1]).write_bytes(record_bytes(run))"
     )
-    here, there, other = tmp_path / "here.rrd", tmp_path / "there.rrd", tmp_path / "other.rrd"
-    subprocess.run([sys.executable, "-c", code, str(there)], cwd=ROOT, check=True)
+    here, elsewhere, other = tmp_path / "here.rrd", tmp_path / "there.rrd", tmp_path / "other.rrd"
+    subprocess.run([sys.executable, "-c", code, str(elsewhere)], cwd=ROOT, check=True)
     here.write_bytes(record_bytes(Timeline(fake.lesson, fake.Params(steps=3)).complete()))
     other.write_bytes(
         record_bytes(Timeline(fake.lesson, fake.Params(steps=3, angle=91.0)).complete())
     )
-    assert id_in(here.read_bytes()) == id_in(there.read_bytes()) != id_in(other.read_bytes())
+    assert id_in(here.read_bytes()) == id_in(elsewhere.read_bytes()) != id_in(other.read_bytes())
     chunks = [
         {chunk.id: repr(chunk.to_record_batch().to_pydict()) for chunk in read_chunks(path)}
-        for path in (here, there)
+        for path in (here, elsewhere)
     ]
     assert chunks[0] == chunks[1]
     for chunk in read_chunks(here):  # rerun looks for a step by halving

@@ -34,9 +34,9 @@ def said(promise, tmp_path, old, *, new):
 
 @pytest.mark.parametrize("promise", ALL, ids=lambda promise: promise.__name__)
 def test_a_good_story_holds(promise):
-    found = list(promise(WHOLE))
-    assert found
-    assert [line for line in found if line] == []
+    lines = list(promise(WHOLE))
+    assert lines
+    assert [line for line in lines if line] == []
 
 
 @pytest.mark.parametrize(

@@ -38,28 +38,28 @@ def test_a_page_without_a_named_heading_tells_no_story(tmp_path):
 
 
 def test_it_is_read_once_and_anew_when_its_page_or_its_lesson_changes(tmp_path):
-    there = with_page(tmp_path, "# T\n\n## A {#a}\n\nOne.\n")
-    first = sure(story_of(there, "live"))
-    assert story_of(there, "live") is first
-    site = sure(story_of(there, "site"))
+    edited = with_page(tmp_path, "# T\n\n## A {#a}\n\nOne.\n")
+    first = sure(story_of(edited, "live"))
+    assert story_of(edited, "live") is first
+    site = sure(story_of(edited, "site"))
     assert site is not first
-    assert story_of(there, "live") is first
-    sure(there.page).write_text("# T\n\n## B {#b}\n\nTwo.\n", encoding="utf-8")
-    assert [scene.name for scene in sure(story_of(there, "live")).scenes] == ["b"]
-    other = replace(there, title="Another")
+    assert story_of(edited, "live") is first
+    sure(edited.page).write_text("# T\n\n## B {#b}\n\nTwo.\n", encoding="utf-8")
+    assert [scene.name for scene in sure(story_of(edited, "live")).scenes] == ["b"]
+    other = replace(edited, title="Another")
     assert sure(story_of(other, "site")).scenes[0].name == "b"
 
 
 def test_scenes_stand_in_order_with_their_names_and_titles():
     story = sure(story_of(lesson, "live"))
-    assert [(one.name, one.title) for one in story.scenes] == [
+    assert [(scene.name, scene.title) for scene in story.scenes] == [
         ("hill", "The hill"),
         ("downhill", "A step goes downhill"),
         ("starts", "Where it starts decides"),
         ("turn", "Your turn"),
     ]
     assert story.title == "Rolling down"
-    assert [one.is_turn for one in story.scenes] == [False, False, False, True]
+    assert [scene.is_turn for scene in story.scenes] == [False, False, False, True]
 
 
 def test_a_line_of_attributes_moves_the_stage_from_there_on(tmp_path):
@@ -118,7 +118,7 @@ def test_what_is_for_one_home_keeps_the_lines_of_the_rest(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("## A {#a run=nope}\n\nx", "line 1: there is no run 'nope'"),
         ("## A {#a camera=frnt}\n\nx", "line 1: there is no camera 'frnt'; did you mean front"),
@@ -136,8 +136,8 @@ def test_what_is_for_one_home_keeps_the_lines_of_the_rest(tmp_path):
         ("## A {#a}\n\n{step=1 and}\nWords.", "line 3: '{step=1 and}' is not read as attributes"),
     ],
 )
-def test_what_the_lesson_does_not_have_is_told_with_its_line(tmp_path, text, said):
-    with pytest.raises(AuthorError, match=re.escape(said)):
+def test_what_the_lesson_does_not_have_is_told_with_its_line(tmp_path, text, message):
+    with pytest.raises(AuthorError, match=re.escape(message)):
         told(tmp_path, text)
 
 
@@ -172,10 +172,10 @@ def own_ids():
     page = lesson_document(
         lesson, article_html(lesson, lambda *_: "?", "live"), home="live", root="page/"
     )
-    found = set(re.findall(r'\sid="([\w-]+)"', page))
+    ids = set(re.findall(r'\sid="([\w-]+)"', page))
     for script in STATIC.glob("*.js"):
-        found |= set(re.findall(r'\$\("#([\w-]+)', script.read_text(encoding="utf-8")))
-    return found - {scene.name for scene in sure(story_of(lesson, "live")).scenes}
+        ids |= set(re.findall(r'\$\("#([\w-]+)', script.read_text(encoding="utf-8")))
+    return ids - {scene.name for scene in sure(story_of(lesson, "live")).scenes}
 
 
 def test_no_scene_takes_the_id_of_a_part_of_the_page(tmp_path):

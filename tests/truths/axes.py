@@ -58,6 +58,6 @@ def many(state: State) -> np.ndarray:
     """Degrees from the truth of each of the many turns, from where their axes came to lie."""
     assert state.turns is not None
     assert state.axes_target is not None
-    one, two = state.turns.tips[:, 0], state.turns.tips[:, 1]
-    frames = np.stack([one, two, np.cross(one, two)], axis=2)
+    first, second = state.turns.tips[:, 0], state.turns.tips[:, 1]
+    frames = np.stack([first, second, np.cross(first, second)], axis=2)
     return np.array([degrees(state.axes_target, frame) for frame in frames])

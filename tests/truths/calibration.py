@@ -58,9 +58,12 @@ def worst_ray(K_found: np.ndarray, lens: tuple[float, ...]) -> float:
 
 def rms_of(state: State) -> np.ndarray:
     """The rms of each view, from the camera and the poses themselves."""
-    now, subject = state.now, state.subject
-    assert now.K is not None
-    off = seen(now.K, tuple(now.lens), now.Ts_camera_board, p=subject.p_board) - subject.uv
+    estimate, subject = state.now, state.subject
+    assert estimate.K is not None
+    off = (
+        seen(estimate.K, tuple(estimate.lens), estimate.Ts_camera_board, p=subject.p_board)
+        - subject.uv
+    )
     return np.sqrt((off**2).sum(axis=2).mean(axis=1))
 
 
@@ -68,12 +71,20 @@ def deviation_of_f(state: State) -> float:
     """The predicted deviation of fx, from a dense Jacobian by differences over all unknowns,
     weighted as the loss asks.
     """
-    now = state.now.adjustment
+    adjustment = state.now.adjustment
     subject = state.subject
-    assert isinstance(now, Adjustment)
+    assert isinstance(adjustment, Adjustment)
     p, uv = subject.p_board, subject.uv
-    free = [i for i in range(9) if now.free[i]]
-    shared = np.array([now.K[0, 0], now.K[1, 1], now.K[0, 2], now.K[1, 2], *now.lens])
+    free = [i for i in range(9) if adjustment.free[i]]
+    shared = np.array(
+        [
+            adjustment.K[0, 0],
+            adjustment.K[1, 1],
+            adjustment.K[0, 2],
+            adjustment.K[1, 2],
+            *adjustment.lens,
+        ]
+    )
 
     def residuals(x: np.ndarray) -> np.ndarray:
         """Residuals where the free shared unknowns, and then all poses alike, have moved by x; one
@@ -83,7 +94,7 @@ def deviation_of_f(state: State) -> float:
         s[free] += x[: len(free)]
         a, b, c = x[len(free) : len(free) + 3]
         W = np.array([[0, -c, b], [c, 0, -a], [-b, a, 0]])
-        Ts = now.Ts_camera_board.copy()
+        Ts = adjustment.Ts_camera_board.copy()
         Ts[:, :3, :3] = (np.eye(3) + W + W @ W / 2) @ Ts[:, :3, :3]
         Ts[:, :3, 3] += x[len(free) + 3 :]
         camera = np.array([[s[0], 0, s[2]], [0, s[1], s[3]], [0, 0, 1]])

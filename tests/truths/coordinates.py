@@ -47,17 +47,17 @@ def in_caps(p: np.ndarray) -> float:
     return float(((polar < 30) | (polar > 150)).mean())
 
 
-def put_back(now: Walked) -> float:
+def put_back(walked: Walked) -> float:
     """How far points are from where their spherical, cylindrical or Cartesian coordinates put them,
     whichever is least.
     """
-    a, b, c = now.c.T
+    a, b, c = walked.c.T
     formulas = (
         (a * np.sin(b) * np.cos(c), a * np.sin(b) * np.sin(c), a * np.cos(b)),
         (a * np.cos(b), a * np.sin(b), c),
         (a, b, c),
     )
-    return min(float(np.linalg.norm(np.column_stack(p) - now.p, axis=1).max()) for p in formulas)
+    return min(float(np.linalg.norm(np.column_stack(p) - walked.p, axis=1).max()) for p in formulas)
 
 
 def fastest(miss: float, height: float = 10.0, speed: float = 10.0) -> tuple[float, float]:
@@ -70,26 +70,26 @@ def fastest(miss: float, height: float = 10.0, speed: float = 10.0) -> tuple[flo
 
 def is_right(state: Any) -> bool | None:
     """Whether what a state shows is right, wrong, or not claimed to be either."""
-    now, params = state.now, state.params
-    if isinstance(now, Walked) and len(now.p) == 17:
-        return put_back(now) < 1e-6
-    if isinstance(now, Scattered) and len(now.p) == params.samples:
-        return bool(abs(in_caps(now.p) - CAPS) < 4 * np.sqrt(CAPS * (1 - CAPS) / params.samples))
-    if isinstance(now, Travelled) and now.means is not None:
+    step, params = state.now, state.params
+    if isinstance(step, Walked) and len(step.p) == 17:
+        return put_back(step) < 1e-6
+    if isinstance(step, Scattered) and len(step.p) == params.samples:
+        return bool(abs(in_caps(step.p) - CAPS) < 4 * np.sqrt(CAPS * (1 - CAPS) / params.samples))
+    if isinstance(step, Travelled) and step.means is not None:
         return between_means(state.subject.degrees) < 1e4
-    if isinstance(now, Followed) and now.time >= 1.5999:
+    if isinstance(step, Followed) and step.time >= 1.5999:
         n = np.array(
             [
-                np.cos(now.tilt) * np.cos(now.pan),
-                np.cos(now.tilt) * np.sin(now.pan),
-                np.sin(now.tilt),
+                np.cos(step.tilt) * np.cos(step.pan),
+                np.cos(step.tilt) * np.sin(step.pan),
+                np.sin(step.tilt),
             ]
         )
-        return bool(np.linalg.norm(n - now.p / np.linalg.norm(now.p)) < 1e-6)
-    if isinstance(now, Met) and now.H[2, 0] == 0.4:
-        x = np.cross(*now.lines)
+        return bool(np.linalg.norm(n - step.p / np.linalg.norm(step.p)) < 1e-6)
+    if isinstance(step, Met) and step.H[2, 0] == 0.4:
+        x = np.cross(*step.lines)
         return bool(
-            np.linalg.norm(np.cross(x, now.x_h))
-            < 1e-9 * np.linalg.norm(x) * np.linalg.norm(now.x_h)
+            np.linalg.norm(np.cross(x, step.x_h))
+            < 1e-9 * np.linalg.norm(x) * np.linalg.norm(step.x_h)
         )
     return None

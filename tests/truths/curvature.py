@@ -143,11 +143,11 @@ def turned(run: Run):
 
 
 def scaled_by_two(run: Run) -> bool:
-    one = next(iter(run_of(Input())))
+    unscaled = next(iter(run_of(Input())))
     two = run.states[0]
     H = at(run, "mean").now.H
     return (
-        bool(np.allclose(defects(one), defects(two)))
-        and bool(np.allclose(4 * facts(one)[1], facts(two)[1]))
+        bool(np.allclose(defects(unscaled), defects(two)))
+        and bool(np.allclose(4 * facts(unscaled)[1], facts(two)[1]))
         and bool(np.allclose(H, mean_of(Input()) / 2))
     )

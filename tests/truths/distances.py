@@ -23,22 +23,22 @@ def true_distances(state: State) -> np.ndarray:
     if state.params.stage == "grid":
         assert s.tip is not None
         tip = np.append(s.tip, 0.0)
-        found = []
-        for one in p:
+        distances = []
+        for point in p:
             t = np.linspace(0, 1, 2001)
-            crossing = one[0] != q[0] and 0 < (tip[0] - q[0]) / (one[0] - q[0]) < 1
+            crossing = point[0] != q[0] and 0 < (tip[0] - q[0]) / (point[0] - q[0]) < 1
             y = (
-                np.interp((tip[0] - q[0]) / (one[0] - q[0]), t, q[1] + t * (one[1] - q[1]))
+                np.interp((tip[0] - q[0]) / (point[0] - q[0]), t, q[1] + t * (point[1] - q[1]))
                 if crossing
                 else np.inf
             )
             seen = y >= tip[1] - 1e-9
-            found.append(
-                np.linalg.norm(one - q)
+            distances.append(
+                np.linalg.norm(point - q)
                 if seen
-                else np.linalg.norm(tip - q) + np.linalg.norm(one - tip)
+                else np.linalg.norm(tip - q) + np.linalg.norm(point - tip)
             )
-        return np.array(found)
+        return np.array(distances)
     if state.params.stage == "roll" and state.params.cloud is None:
         return unrolled(p, s.source)
     if state.params.shape in ("sphere", "wrung sphere") and state.params.mesh is None:
@@ -60,12 +60,12 @@ def unrolled(p: np.ndarray, source: int) -> np.ndarray:
 
 def errors(state: State) -> np.ndarray:
     """The relative errors of a step's distances, far enough from the source."""
-    now = state.now
-    assert isinstance(now, Found | Front)
+    result = state.now
+    assert isinstance(result, Found | Front)
     true = true_distances(state)
     finite = np.isfinite(true)
-    kept = np.isfinite(now.d) & finite & (true > NEAR * true[finite].max())
-    return now.d[kept] / true[kept] - 1
+    kept = np.isfinite(result.d) & finite & (true > NEAR * true[finite].max())
+    return result.d[kept] / true[kept] - 1
 
 
 def by_heat(p: np.ndarray, faces: np.ndarray, sources: np.ndarray, *, time: float) -> np.ndarray:
@@ -95,7 +95,7 @@ def by_heat(p: np.ndarray, faces: np.ndarray, sources: np.ndarray, *, time: floa
     heat = scipy.sparse.linalg.splu(mass + time * L).solve(np.eye(n)[:, sources])
     rise = scipy.sparse.linalg.splu((L + 1e-9 * mass).tocsc())
     unit = normals / (2 * areas)[:, None]
-    found = []
+    distances = []
     for u in heat.T:
         slope: Any = sum(
             u[faces[:, k]][:, None]
@@ -110,8 +110,8 @@ def by_heat(p: np.ndarray, faces: np.ndarray, sources: np.ndarray, *, time: floa
             hat = np.cross(unit, p[faces[:, (k + 2) % 3]] - p[faces[:, (k + 1) % 3]]) / 2
             np.add.at(b, faces[:, k], (hat * X).sum(axis=1))
         d = rise.solve(b)
-        found.append(d - d.min())
-    return np.array(found).T
+        distances.append(d - d.min())
+    return np.array(distances).T
 
 
 def mahalanobis(p: np.ndarray, mean: np.ndarray, C: np.ndarray) -> np.ndarray:

@@ -66,15 +66,15 @@ def rows_apart(state: Any) -> float:
     """The root mean square difference of rows after both cameras are turned, by rotating every
     ray.
     """
-    found = state.now.rectification
+    rectification = state.now.rectification
     views = state.views
     rows = []
     for R, K, uv in (
-        (found.R_rectified_first, state.K_first, views.matches[:, :2]),
-        (found.R_rectified_second, state.K_second, views.matches[:, 2:]),
+        (rectification.R_rectified_first, state.K_first, views.matches[:, :2]),
+        (rectification.R_rectified_second, state.K_second, views.matches[:, 2:]),
     ):
         rays = np.column_stack([uv, np.ones(len(uv))]) @ np.linalg.inv(K).T @ R.T
-        rows.append(found.K[1, 1] * rays[:, 1] / rays[:, 2] + found.K[1, 2])
+        rows.append(rectification.K[1, 1] * rays[:, 1] / rays[:, 2] + rectification.K[1, 2])
     return float(np.sqrt(np.mean((rows[0] - rows[1]) ** 2)))
 
 
@@ -97,8 +97,8 @@ def is_right(state: Any) -> bool | None:
     """Whether the end of a run is right; None before it, and where nobody knows."""
     if not (isinstance(state.now, Related) and state.now.stage == "rectified"):
         return None
-    found = errors(state)
-    if found is None:
+    angles = errors(state)
+    if angles is None:
         return None
-    turn, direction = found
+    turn, direction = angles
     return turn < 1.0 and direction < 5.0

@@ -81,29 +81,29 @@ def radius_deviation(state: Any, unknown: np.ndarray) -> float:
 
 def wider(state: Any) -> float:
     """How many times as wide as predicted the middle 90 % of repeated radii lie."""
-    now = state.now
-    low, high = np.quantile(now.radii, [0.05, 0.95])
-    return float((high - low) / (2 * 1.6448536 * np.sqrt(now.covariance[-1, -1])))
+    spread = state.now
+    low, high = np.quantile(spread.radii, [0.05, 0.95])
+    return float((high - low) / (2 * 1.6448536 * np.sqrt(spread.covariance[-1, -1])))
 
 
 def is_right(state: Any) -> bool | None:
     """Whether what a state shows is right, wrong, or not claimed to be either."""
-    now = state.now
-    match type(now).__name__:
+    result = state.now
+    match type(result).__name__:
         case "Walked":
-            if now.now.stop is None or state.subject.best is None:
+            if result.now.stop is None or state.subject.best is None:
                 return None
-            if now.now.stop in (Stop.SINGULAR, Stop.DIVERGED):
+            if result.now.stop in (Stop.SINGULAR, Stop.DIVERGED):
                 return False
-            is_least = cost(state, now.now.unknown) <= 1.0011 * least(state)
-            return None if is_least and abs(now.now.unknown[-1]) > FAR else bool(is_least)
+            is_least = cost(state, result.now.unknown) <= 1.0011 * least(state)
+            return None if is_least and abs(result.now.unknown[-1]) > FAR else bool(is_least)
         case "Spread":
-            if len(now.radii) <= 100:
+            if len(result.radii) <= 100:
                 return None
-            low = abs(now.unknown[-1]) - 1.6449 * radius_deviation(state, now.unknown)
+            low = abs(result.unknown[-1]) - 1.6449 * radius_deviation(state, result.unknown)
             return bool(1 / 1.5 <= wider(state) <= 1.5 and low >= 0)
         case "Trusted":
-            if not now.last or state.subject.truth is None:
+            if not result.last or state.subject.truth is None:
                 return None
-            return plane_error(now.now.estimate) < max(state.params.noise, 0.005)
+            return plane_error(result.now.estimate) < max(state.params.noise, 0.005)
     return None

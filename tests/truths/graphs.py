@@ -37,21 +37,23 @@ def A(state: State) -> np.ndarray:
 
 def told(state: State) -> np.ndarray:
     """The class that each node is given, of a cut the better way round; -1 where none is."""
-    now = state.now
+    result = state.now
     classes = state.subject.classes
-    if isinstance(now, Cut):
-        side = now.side.astype(int)
+    if isinstance(result, Cut):
+        side = result.side.astype(int)
         return (
             side
             if not len(classes) or np.sum(side == classes) >= np.sum(side != classes)
             else 1 - side
         )
-    if isinstance(now, Trained):
-        return np.argmax(now.scores, axis=1)
-    assert isinstance(now, Layer)
-    a, b = now.features.T
+    if isinstance(result, Trained):
+        return np.argmax(result.scores, axis=1)
+    assert isinstance(result, Layer)
+    a, b = result.features.T
     return np.where(
-        np.isclose(a, b, rtol=0, atol=1e-9 * np.abs(now.features).max()), -1, np.where(b > a, 1, 0)
+        np.isclose(a, b, rtol=0, atol=1e-9 * np.abs(result.features).max()),
+        -1,
+        np.where(b > a, 1, 0),
     )
 
 

@@ -17,8 +17,8 @@ from workbench.algorithms.registration import icp
 
 
 def degrees(T: np.ndarray, truth: np.ndarray) -> float:
-    one, other = (Rotation.from_matrix(_turn(A)) for A in (T, truth))
-    return float(np.degrees((one * other.inv()).magnitude()))
+    rotation, other = (Rotation.from_matrix(_turn(A)) for A in (T, truth))
+    return float(np.degrees((rotation * other.inv()).magnitude()))
 
 
 def _turn(T: np.ndarray) -> np.ndarray:
@@ -136,5 +136,5 @@ def flat_turn(run: Run, k: int) -> float:
     def cost(turn: float) -> float:
         return float(((turned(p, turn) - q) ** 2).sum())
 
-    found = minimize_scalar(cost, bounds=(-60.0, 60.0), method="bounded", options={"xatol": 1e-9})
-    return abs(float(found.x))
+    minimum = minimize_scalar(cost, bounds=(-60.0, 60.0), method="bounded", options={"xatol": 1e-9})
+    return abs(float(minimum.x))

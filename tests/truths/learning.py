@@ -67,7 +67,7 @@ def farthest(state: Any) -> float:
 def named(state: Any, which: str) -> float:
     """The share of test clouds that are named rightly, one by one."""
     clouds = getattr(state.about, which)
-    told = [int(np.argmax(state.now.network(one[None])[0])) for one in clouds]
+    told = [int(np.argmax(state.now.network(cloud[None])[0])) for cloud in clouds]
     return float(np.mean(np.array(told) == state.about.of))
 
 

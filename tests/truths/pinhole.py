@@ -209,9 +209,9 @@ def shot_gap(params: Any) -> float:
 
 def moves(run: Run) -> tuple[np.ndarray, np.ndarray]:
     """Each point's place and shift by the lens."""
-    now = run.states[STAGES.index("distort")].now
-    seen = np.isfinite(now.xy_bent).all(axis=1)
-    return now.xy[seen], (now.xy_bent - now.xy)[seen]
+    state = run.states[STAGES.index("distort")].now
+    seen = np.isfinite(state.xy_bent).all(axis=1)
+    return state.xy[seen], (state.xy_bent - state.xy)[seen]
 
 
 def pixels_at(run: Run) -> np.ndarray:

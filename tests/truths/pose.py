@@ -34,36 +34,36 @@ def is_near(T: np.ndarray | None, subject: Any) -> bool:
 
 def pixels_off(T: np.ndarray, subject: Any) -> np.ndarray:
     """How far each point is seen from its pixel; infinite from behind."""
-    found = []
+    distances = []
     for p, uv in zip(subject.given.p_world, subject.given.uv, strict=True):
         x, y, w = subject.K @ (T[:3, :3] @ p + T[:3, 3])
-        found.append(np.hypot(x / w - uv[0], y / w - uv[1]) if w > 0 else np.inf)
-    return np.array(found)
+        distances.append(np.hypot(x / w - uv[0], y / w - uv[1]) if w > 0 else np.inf)
+    return np.array(distances)
 
 
 def rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def share_near(now: Repeated, subject: Any) -> float:
+def share_near(trials: Repeated, subject: Any) -> float:
     """The share of other pictures in which a pose is near."""
-    return sum(is_near(T, subject) for T in now.Ts) / now.pictures
+    return sum(is_near(T, subject) for T in trials.Ts) / trials.pictures
 
 
 def is_right(state: Any) -> bool | None:
     """Whether the end of a run is right; None before it."""
-    now, subject = state.now, state.subject
+    step, subject = state.now, state.subject
     if subject.T_true is None:
         return None
-    if isinstance(now, Repeated):
-        share = share_near(now, subject)
+    if isinstance(step, Repeated):
+        share = share_near(step, subject)
         return True if share == 1 else False if share < 0.9 else None
-    if isinstance(now, ransac.State):
-        if now.phase != "stop":
+    if isinstance(step, ransac.State):
+        if step.phase != "stop":
             return None
-        return now.best is not None and is_near(now.best.estimate, subject)
-    if isinstance(now, Searched) and (
-        now.phase == "stop" or (now.phase in ("choose", "solved") and not state.params.refine)
+        return step.best is not None and is_near(step.best.estimate, subject)
+    if isinstance(step, Searched) and (
+        step.phase == "stop" or (step.phase in ("choose", "solved") and not state.params.refine)
     ):
-        return is_near(now.T, subject)
+        return is_near(step.T, subject)
     return None

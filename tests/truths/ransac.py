@@ -82,20 +82,20 @@ def most_trusted(run: Run, k: int) -> tuple[int, float]:
     """
     best = run.states[k].best
     m = run.subject.model.sample_size
-    found = (0, 0.0)
+    chosen = (0, 0.0)
     by_trust = sorted(range(len(best.inliers)), key=lambda row: -run.subject.quality[row])
     votes = [bool(best.inliers[row]) for row in by_trust]
     for n in range(20, len(votes) + 1):
         votes_here = sum(votes[:n])
-        if votes_here <= m or votes_here / n < found[1]:
+        if votes_here <= m or votes_here / n < chosen[1]:
             continue
         tail = sum(
             math.comb(n - m, i - m) * 0.05 ** (i - m) * 0.95 ** (n - i)
             for i in range(votes_here, n + 1)
         )
         if tail < 0.05:
-            found = (n, votes_here / n)
-    return found
+            chosen = (n, votes_here / n)
+    return chosen
 
 
 def share_for_stop(run: Run, k: int) -> float:

@@ -36,10 +36,10 @@ def distance(params: Params, q: np.ndarray) -> np.ndarray:
     if params.shape == "rabbit":
         triangles, tree, of = dense_rabbit()
         near = of[np.asarray(tree.query(q, 6)[1])]
-        found = trimesh.triangles.closest_point(
+        closest = trimesh.triangles.closest_point(
             triangles[near.ravel()], np.repeat(q, 6, axis=0)
         ).reshape(-1, 6, 3)
-        return np.linalg.norm(found - q[:, None], axis=2).min(axis=1)
+        return np.linalg.norm(closest - q[:, None], axis=2).min(axis=1)
     half = half_size(params)
     if params.shape == "plate":
         turn = 1.5 * np.random.default_rng(params.seed).normal(size=3)
@@ -54,8 +54,10 @@ def dense_rabbit() -> tuple[np.ndarray, scipy.spatial.cKDTree, np.ndarray]:
     """Its triangles, points spread over them, and on which triangle each lies."""
     p, faces = rabbit_mesh(0.04)
     p = 1.6 * (p - (p.min(axis=0) + p.max(axis=0)) / 2)
-    found = trimesh.sample.sample_surface(trimesh.Trimesh(p, faces, process=False), 300_000, seed=9)
-    return p[faces], scipy.spatial.cKDTree(found[0]), np.asarray(found[1])
+    samples = trimesh.sample.sample_surface(
+        trimesh.Trimesh(p, faces, process=False), 300_000, seed=9
+    )
+    return p[faces], scipy.spatial.cKDTree(samples[0]), np.asarray(samples[1])
 
 
 def sizes(params: Params) -> tuple[float, float]:

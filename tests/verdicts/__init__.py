@@ -61,26 +61,26 @@ class Claim:
 Oracle = Callable[[Run, int], float]
 
 
-def misvalued(said: Caption, values: Mapping[str, Oracle], run: Run, *, k: int) -> list[str]:
+def misvalued(caption: Caption, values: Mapping[str, Oracle], run: Run, *, k: int) -> list[str]:
     """Return which values of a caption are not what the run says, to six digits."""
-    found = []
-    for name, value in said.values.items():
+    findings = []
+    for name, value in caption.values.items():
         if name not in values:
-            found.append(f"nobody checks the value {name!r} of: {said.text}")
+            findings.append(f"nobody checks the value {name!r} of: {caption.text}")
         elif not math.isclose(value, true := values[name](run, k), rel_tol=1e-6, abs_tol=1e-6):
-            found.append(f"{name} is {value:g}, in truth {true:g}: {said.text}")
-    return found
+            findings.append(f"{name} is {value:g}, in truth {true:g}: {caption.text}")
+    return findings
 
 
 def untrue(text: str, claims: Sequence[Claim], run: Run, *, k: int) -> list[str]:
     """Return what a text says that does not hold, and what judges without a claim that could be
     checked.
     """
-    found = []
+    findings = []
     rest = text
     for claim in claims:
         for match in re.finditer(claim.words, text):
             if claim.holds is not None and not claim.holds(run, k, match):
-                found.append(f"not true: {match[0]!r}")
+                findings.append(f"not true: {match[0]!r}")
         rest = re.sub(claim.words, " … ", rest)
-    return found + [f"nobody checks {word[0]!r} in: {rest}" for word in JUDGING.finditer(rest)]
+    return findings + [f"nobody checks {word[0]!r} in: {rest}" for word in JUDGING.finditer(rest)]

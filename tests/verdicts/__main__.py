@@ -29,13 +29,13 @@ Text = tuple[str, Callable[[Run], str], Sequence[Claim]]
 def main() -> int:
     """Audit the lessons that are named, or all; return 1 where something is not true."""
     names = [word for word in sys.argv[1:] if word != "--whole"]
-    found = [
+    findings = [
         line
         for name in names or catalog()
         for line in audit(catalog()[name], whole="--whole" in sys.argv)
     ]
-    print("\n".join(found))
-    return 1 if found else 0
+    print("\n".join(findings))
+    return 1 if findings else 0
 
 
 def audit(
@@ -54,18 +54,18 @@ def audit(
     form = lesson.form
     short: Callable[[Any], Iterator[Any]] = getattr(judge, "until_the_end", form.states)
     for params, texts in experiments(lesson, judge):
-        for one in seeded(params, WHOLE if whole else QUICK):
-            own = one == params
+        for reseeded in seeded(params, WHOLE if whole else QUICK):
+            own = reseeded == params
             if own and run is not None:
-                states = run(one)
+                states = run(reseeded)
             else:
-                states = tuple(form.states(one) if whole or own else short(one))
+                states = tuple(form.states(reseeded) if whole or own else short(reseeded))
             where = (
                 f"{lesson.name}, {texts[0][0] if texts else 'default'}, seed"
-                f" {getattr(one, 'seed', '-')}"
+                f" {getattr(reseeded, 'seed', '-')}"
             )
-            subject = form.setup(one)
-            seen = Run(one, States.of(states, params=one, subject=subject), subject)
+            subject = form.setup(reseeded)
+            seen = Run(reseeded, States.of(states, params=reseeded, subject=subject), subject)
             wrong = list(judged(lesson, judge, seen, texts=texts))
             if own:
                 wrong += wordless(seen, texts)
@@ -110,16 +110,21 @@ def judged(lesson: Lesson, judge: Any, run: Run, *, texts: Sequence[Text]) -> It
     for k, state in enumerate(run.states):
         look = Look(params=run.params, subject=run.subject, now=state, past=run.states[:k])
         given = state if lesson.setup is None else look
-        said = caption(given)
-        yield from (f"step {k}: {what}" for what in untrue(said.text, judge.CAPTIONS, run, k=k))
+        shown = caption(given)
+        yield from (
+            f"step {k}: {finding}" for finding in untrue(shown.text, judge.CAPTIONS, run, k=k)
+        )
         if lesson.setup is not None:
-            yield from (f"step {k}: {what}" for what in misvalued(said, judge.VALUES, run, k=k))
+            yield from (
+                f"step {k}: {finding}" for finding in misvalued(shown, judge.VALUES, run, k=k)
+            )
         right = judge.right(run, k)
-        if said.tone != "info" and right is not None and right is not (said.tone == "good"):
-            yield f"step {k}: the tone is {said.tone}, the truth {right}: {said.text}"
+        if shown.tone != "info" and right is not None and right is not (shown.tone == "good"):
+            yield f"step {k}: the tone is {shown.tone}, the truth {right}: {shown.text}"
     for name, text, claims in texts:
         yield from (
-            f"{name}: {what}" for what in untrue(text(run), claims, run, k=len(run.states) - 1)
+            f"{name}: {finding}"
+            for finding in untrue(text(run), claims, run, k=len(run.states) - 1)
         )
 
 
@@ -145,7 +150,7 @@ def wordless(run: Run, texts: Sequence[Text]) -> list[str]:
 def nameless(lesson: Lesson, judge: Any) -> Iterator[str]:
     """Return the claims about presets and questions that the lesson does not have."""
     for claims, named in ((judge.LINES, lesson.presets), (judge.WHYS, lesson.questions)):
-        for name in sorted(set(claims) - {one.name for one in named}):
+        for name in sorted(set(claims) - {entry.name for entry in named}):
             yield f"{lesson.name}: claims about {name!r}, which it does not have"
 
 

@@ -51,10 +51,10 @@ def by_rmse(run: Run, k: int, which: int) -> float:
     """One of the four RMSEs in order; found anew to 1 %, since a fit that stops keeps its
     matches.
     """
-    said = run.states[k].rmse
-    for one in range(4):
-        assert np.isclose(said[one], kept_rmse(run, k, one), rtol=0.01)
-    return float(np.sort(said)[which])
+    rmse = run.states[k].rmse
+    for frame in range(4):
+        assert np.isclose(rmse[frame], kept_rmse(run, k, frame), rtol=0.01)
+    return float(np.sort(rmse)[which])
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -77,8 +77,8 @@ def matrix(run: Run, k: int) -> np.ndarray:
 def left(run: Run, k: int) -> float:
     A = matrix(run, k)
     share = float(np.linalg.norm(A - np.diag(np.diag(A))) / np.linalg.norm(A))
-    said = run.states[k].jacobi.off
-    return said if max(share, said) < 1e-9 else share  # two ways of rounding
+    by_jacobi = run.states[k].jacobi.off
+    return by_jacobi if max(share, by_jacobi) < 1e-9 else share  # two ways of rounding
 
 
 def turned(run: Run, k: int) -> float:
@@ -121,9 +121,9 @@ def lit(run: Run, k: int) -> float:
     """The frame that is lit: of the four the one whose motion the axes as they stand give."""
     state = run.states[k]
     if isinstance(state, starts.Race):
-        return float(np.argmin([kept_rmse(run, k, one) for one in range(4)]) + 1)
+        return float(np.argmin([kept_rmse(run, k, i) for i in range(4)]) + 1)
     R = state.axes_target @ state.axes.T
-    off = [degrees(one.T_target_source[:3, :3], R) for one in state.frames]
+    off = [degrees(frame.T_target_source[:3, :3], R) for frame in state.frames]
     return float(np.argmin(off) + 1)
 
 

@@ -107,9 +107,10 @@ def _moved(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     f = float(state.now.K[0, 0])
     other = float(state.ending.without.K[0, 0])
-    said = says(m["f"], f) and says(m["other"], other) and near(m["move"], abs(f - other))
+    agrees = says(m["f"], f) and says(m["other"], other) and near(m["move"], abs(f - other))
     return (
-        said and abs(number(m["times"]) * _deviation(state) / max(abs(f - other), 1e-9) - 1) < 0.07
+        agrees
+        and abs(number(m["times"]) * _deviation(state) / max(abs(f - other), 1e-9) - 1) < 0.07
     )
 
 
@@ -117,15 +118,18 @@ def _plus_minus(run: Run, k: int, m: re.Match[str]) -> bool:
     """The deviation to two digits, and f to no more than it bears out."""
     K = run.states[k].now.K
     sd = _deviation(run.states[k])
-    said = abs(number(m["sd"]) - sd) < 0.051 * 10 ** np.floor(np.log10(sd)) + 0.01 * sd
-    return said and abs(number(m["f"]) - K[0, 0]) < max(0.051, 0.1 * sd)
+    agrees = abs(number(m["sd"]) - sd) < 0.051 * 10 ** np.floor(np.log10(sd)) + 0.01 * sd
+    return agrees and abs(number(m["f"]) - K[0, 0]) < max(0.051, 0.1 * sd)
 
 
 def _not_at_rest(run: Run, k: int, m: re.Match[str]) -> bool:
     """The limit ended it, and the gradient of the cost by f has not vanished."""
     state = run.states[k]
     cut = [state.now.adjustment, *([] if state.ending is None else [state.ending.without])]
-    return any(one is not None and one.stop is not None and one.iteration == 400 for one in cut)
+    return any(
+        adjustment is not None and adjustment.stop is not None and adjustment.iteration == 400
+        for adjustment in cut
+    )
 
 
 def _off(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -204,10 +208,10 @@ def _f_off(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _distances(run: Run, k: int, m: re.Match[str]) -> bool:
-    found, true = (
+    estimated, true = (
         Ts[:, :3, 3] for Ts in (_end(run).now.Ts_camera_board, _end(run).subject.Ts_camera_board)
     )
-    ratio = np.linalg.norm(found, axis=1).sum() / np.linalg.norm(true, axis=1).sum()
+    ratio = np.linalg.norm(estimated, axis=1).sum() / np.linalg.norm(true, axis=1).sum()
     return says(m["share"], 100 * abs(ratio - 1)) and (ratio < 1) == (m["sense"] == "short")
 
 
@@ -243,8 +247,12 @@ def _own(
 
 
 def _at_rest(state: State) -> bool:
-    found = state.now.adjustment
-    return found is not None and found.stop is not None and found.stop.name == "CONVERGED"
+    adjustment = state.now.adjustment
+    return (
+        adjustment is not None
+        and adjustment.stop is not None
+        and adjustment.stop.name == "CONVERGED"
+    )
 
 
 def _deviations(run: Run, m: re.Match[str]) -> bool:

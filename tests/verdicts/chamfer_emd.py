@@ -52,9 +52,9 @@ FIGURE = rf"(<?{NUMBER})"
 SHARE = rf"({NUMBER}) %"
 
 
-def near(said: str, value: float) -> bool:
+def near(text: str, value: float) -> bool:
     """Whether a number is said with its two digits that count."""
-    return 0 < value < number(said[1:]) if said.startswith("<") else says(said, value, 2)
+    return 0 < value < number(text[1:]) if text.startswith("<") else says(text, value, 2)
 
 
 @functools.lru_cache(maxsize=512)
@@ -177,12 +177,12 @@ def settled(run: Run, k: int, side: str) -> bool:
     for metres in (1e-2, 1e-3, 1e-4):
         D = scipy.spatial.distance.cdist(p + metres / max(steepness, 1e-12) * pull, target)
         to_target, to_source = (D.min(axis=1) ** 2).mean(), (D.min(axis=0) ** 2).mean()
-        now = {
+        after = {
             "both sides": to_target + to_source,
             "source to target": to_target,
             "target to source": to_source,
         }
-        if now[run.params.lowers] < 0.995 * value - 1e-9:
+        if after[run.params.lowers] < 0.995 * value - 1e-9:
             return False
     return True
 
@@ -228,8 +228,8 @@ def _numbers(run: Run, k: int, m: re.Match[str], *, first: int = 1) -> bool:
     return _zero_or_near(m[first], chamfer_now) and _zero_or_near(m[first + 1], emd_now)
 
 
-def _zero_or_near(said: str, value: float) -> bool:
-    return abs(value) < 1e-12 if said == "0" else near(said, value)
+def _zero_or_near(text: str, value: float) -> bool:
+    return abs(value) < 1e-12 if text == "0" else near(text, value)
 
 
 def _in_a_bunch(run: Run, k: int) -> float:
@@ -239,8 +239,8 @@ def _in_a_bunch(run: Run, k: int) -> float:
 
 def _bunched(run: Run, k: int, m: re.Match[str]) -> bool:
     # the even points that lie inside the bunch by chance are counted too
-    said = number(m[1])
-    return 0 <= _in_a_bunch(run, k) - said < 8 and _numbers(run, k, m, first=2)
+    count = number(m[1])
+    return 0 <= _in_a_bunch(run, k) - count < 8 and _numbers(run, k, m, first=2)
 
 
 def _ranked(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -250,15 +250,15 @@ def _ranked(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _blur(run: Run, k: int, m: re.Match[str]) -> bool:
-    now, target = run.states[k], target_of(run)
+    state, target = run.states[k], target_of(run)
     rng = np.random.default_rng(run.params.seed)
     far = blob(run.params.points, 0.3, True, rng=rng)
-    blur = now.blur
+    blur = state.blur
     known = plan_cost(far, target, blur)
     return (
-        abs(now.costs[0] - known) < 0.01 * known
-        and near(m[1], now.costs[0])
-        and near(m[2], now.costs[1])
+        abs(state.costs[0] - known) < 0.01 * known
+        and near(m[1], state.costs[0])
+        and near(m[2], state.costs[1])
     )
 
 

@@ -64,8 +64,8 @@ def followed(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def still_met(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    return bool(np.abs(now.lines @ now.x_h).max() < 1e-9)
+    step = run.states[k].now
+    return bool(np.abs(step.lines @ step.x_h).max() < 1e-9)
 
 
 CAPTIONS = (
@@ -98,10 +98,10 @@ def longer(run: Run) -> float:
 
 
 def _ten_metres(run: Run, *_) -> bool:
-    now = run.states[-2].now
+    step = run.states[-2].now
     return (
-        abs(now.circle_length / 1e3 - 12_348) < 0.5
-        and abs(longer(run) / 100 * now.circle_length - 10) < 0.5
+        abs(step.circle_length / 1e3 - 12_348) < 0.5
+        and abs(longer(run) / 100 * step.circle_length - 10) < 0.5
     )
 
 

@@ -45,8 +45,8 @@ DIGITS = 0.006  # relative: what three digits that count may hide
 VALUE = rf"({NUMBER})"
 
 
-def near(said: str, value: float, relative: float = DIGITS) -> bool:
-    return abs(number(said) - value) <= relative * abs(value) + 1e-8
+def near(text: str, value: float, relative: float = DIGITS) -> bool:
+    return abs(number(text) - value) <= relative * abs(value) + 1e-8
 
 
 def caption(look: Look) -> Caption:
@@ -127,8 +127,8 @@ def _pointing(run: Run, k: int, m: re.Match[str]) -> bool:
     p, v, total = state.subject.p, state.now.vertex, np.zeros(3)
     for face in state.subject.faces[(state.subject.faces == v).any(axis=1)]:
         i = int(np.flatnonzero(face == v)[0])
-        here, one, two = p[face[i]], p[face[(i + 1) % 3]], p[face[(i + 2) % 3]]
-        for neighbour, across in ((one, two), (two, one)):
+        here, first, second = p[face[i]], p[face[(i + 1) % 3]], p[face[(i + 2) % 3]]
+        for neighbour, across in ((first, second), (second, first)):
             u, w = here - across, neighbour - across
             total += u @ w / np.linalg.norm(np.cross(u, w)) * (here - neighbour)
     total /= 2 * facts(state)[1][v]
@@ -150,8 +150,8 @@ def _principal(run: Run, k: int, m: re.Match[str]) -> bool:
     if state.params.mistake == "defect taken for K":
         K = defect_here(state)
     roots = np.sort(np.roots([1.0, -2 * H, K]).real)  # k1 and k2 solve x^2 - 2 H x + K = 0
-    said = number(m[1]), number(m[2])
-    return bool(np.allclose(said, roots[::-1], rtol=2 * DIGITS, atol=2e-3 * (1 + abs(H))))
+    numbers = number(m[1]), number(m[2])
+    return bool(np.allclose(numbers, roots[::-1], rtol=2 * DIGITS, atol=2e-3 * (1 + abs(H))))
 
 
 def _bends(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -171,8 +171,8 @@ def _bends(run: Run, k: int, m: re.Match[str]) -> bool:
 def _fit_errors(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     return all(
-        says_percent(said, state.errors[name])
-        for said, name in zip(m.groups(), ("K by fit", "K", "H by fit", "H"), strict=True)
+        says_percent(text, state.errors[name])
+        for text, name in zip(m.groups(), ("K by fit", "K", "H by fit", "H"), strict=True)
     )
 
 
@@ -185,8 +185,8 @@ def _sum(run: Run, k: int, m: re.Match[str]) -> bool:
 def _study_numbers(run: Run, k: int, m: re.Match[str]) -> bool:
     s = study(run)
     return abs(number(m[1]) - s.counts[-1] / s.counts[0]) <= 0.5 and all(
-        says_percent(said, value)
-        for said, value in zip(m.groups()[1:], (s.K[0], s.K[-1]), strict=True)
+        says_percent(text, value)
+        for text, value in zip(m.groups()[1:], (s.K[0], s.K[-1]), strict=True)
     )
 
 

@@ -56,21 +56,21 @@ def right(run: Run, k: int) -> bool | None:
     return True if relative <= 0.03 and wrong(run, k) <= 5.0 else None
 
 
-def first_order(run: Run, k: int, found: re.Match[str]) -> bool:
-    e = number(found["e"])
+def first_order(run: Run, k: int, m: re.Match[str]) -> bool:
+    e = number(m["e"])
     fB = run.subject.f * run.subject.pair.camera.baseline
-    pairs = [part.split(" by ") for part in found["list"].split(", ")]
+    pairs = [part.split(" by ") for part in m["list"].split(", ")]
     return all(
         np.isclose(metres(moved), metres(z) ** 2 / fB * e, rtol=0.03, atol=6e-4)
         for z, moved in pairs
     )
 
 
-def measured(run: Run, k: int, found: re.Match[str]) -> bool:
+def measured(run: Run, k: int, m: re.Match[str]) -> bool:
     """The boards, at 1, 5 and 20 m, moved by this in the median."""
-    said = found["list"].split(", ")
+    texts = m["list"].split(", ")
     moved = [abs(depth - z) for z, depth in found_at(run, k).items()]
-    return all(says_length(text, off_by) for text, off_by in zip(said, moved, strict=True))
+    return all(says_length(text, off_by) for text, off_by in zip(texts, moved, strict=True))
 
 
 CAPTIONS = (
@@ -129,7 +129,7 @@ def alone(run: Run, k: int) -> float:
     right_ = run.subject.right
     w = left.shape[1]
     shifts = range(run.subject.max_disparity + 1)
-    padded = [np.pad(one, half, mode="edge") for one in (left, right_)]
+    padded = [np.pad(picture, half, mode="edge") for picture in (left, right_)]
     best = []
     for u in range(run.states[k].columns):
         costs = []
@@ -223,7 +223,7 @@ BARE = (slice(30, 90), slice(46, 88))  # of the plain wall, well inside
 STRIPES = (slice(30, 90), slice(60, 110))
 
 
-def flat(run: Run, k: int, found: re.Match[str]) -> bool:
+def flat(run: Run, k: int, m: re.Match[str]) -> bool:
     """The curve of the bare wall stays low at every shift, far below the median cost where there is
     texture.
     """
@@ -238,7 +238,7 @@ def flat(run: Run, k: int, found: re.Match[str]) -> bool:
     )
 
 
-def valleys(run: Run, k: int, found: re.Match[str]) -> bool:
+def valleys(run: Run, k: int, m: re.Match[str]) -> bool:
     costs = run.states[CHOSEN].costs
     inner = costs[1:-1]
     at = 1 + np.flatnonzero((inner < costs[:-2]) & (inner < costs[2:]))
@@ -249,7 +249,7 @@ def valleys(run: Run, k: int, found: re.Match[str]) -> bool:
     )
 
 
-def scattered(run: Run, k: int, found: re.Match[str]) -> bool:
+def scattered(run: Run, k: int, m: re.Match[str]) -> bool:
     of_wrong, of_all = near_an_edge(run)
     return of_wrong < 1.3 * of_all
 
@@ -257,16 +257,16 @@ def scattered(run: Run, k: int, found: re.Match[str]) -> bool:
 def times_baseline(run: Run, times: float) -> bool:
     """Every disparity is so many times that of the ordinary baseline."""
     ordinary = dataclasses.replace(run.params, baseline=0.1)
-    one, other = (pair_of(params).disparity for params in (ordinary, run.params))
-    return bool(np.allclose(other, times * one, rtol=1e-6))
+    disparity, other = (pair_of(params).disparity for params in (ordinary, run.params))
+    return bool(np.allclose(other, times * disparity, rtol=1e-6))
 
 
-def darker(run: Run, k: int, found: re.Match[str]) -> bool:
+def darker(run: Run, k: int, m: re.Match[str]) -> bool:
     mean = [float(picture.mean()) for picture in (run.subject.left, run.subject.right)]
     return abs(mean[1] / mean[0] - 0.7) < 0.03
 
 
-def rows_off(run: Run, k: int, found: re.Match[str]) -> bool:
+def rows_off(run: Run, k: int, m: re.Match[str]) -> bool:
     """Pushed up by two rows, the right picture is that of the same run without the mistake."""
     true = run_of(dataclasses.replace(run.params, mistake="none")).subject.right
     return bool(np.array_equal(run.subject.right[2:], true[:-2]))
@@ -278,7 +278,7 @@ def last_words(run: Run) -> str:
     return caption(look).text
 
 
-def four_times_too_far(run: Run, k: int, found: re.Match[str]) -> bool:
+def four_times_too_far(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[-2]
     pair = run.subject.pair
     true = true_depth(pair)
@@ -410,47 +410,47 @@ LINES = {
 # explanations -------------------------------------------------------------------------------------
 
 
-def four_times(run: Run, k: int, found: re.Match[str]) -> bool:
+def four_times(run: Run, k: int, m: re.Match[str]) -> bool:
     fB = run.params.focal_length * run.params.baseline
-    return says(found["far"], fB / 4) and says(found["near"], fB / 16)
+    return says(m["far"], fB / 4) and says(m["near"], fB / 16)
 
 
-def came_nearer(run: Run, k: int, found: re.Match[str]) -> bool:
+def came_nearer(run: Run, k: int, m: re.Match[str]) -> bool:
     fB = run.params.focal_length * run.params.baseline
     return (
         fB == 80.0
-        and says_length(found["far"], 20.0 - fB / (fB / 20.0 + 1.0))
-        and says_length(found["other"], fB / (fB / 20.0 - 1.0) - 20.0)
+        and says_length(m["far"], 20.0 - fB / (fB / 20.0 + 1.0))
+        and says_length(m["other"], fB / (fB / 20.0 - 1.0) - 20.0)
         and 20.0**2 / fB == 5.0
     )
 
 
-def means(run: Run, k: int, found: re.Match[str]) -> bool:
+def means(run: Run, k: int, m: re.Match[str]) -> bool:
     at = list(found_at(run, -2).values())
     fB = 640 * 0.125
-    return says(found["z"], float(np.mean(at))) and says(
-        found["d"], fB / float(np.mean([fB / z for z in at]))
+    return says(m["z"], float(np.mean(at))) and says(
+        m["d"], fB / float(np.mean([fB / z for z in at]))
     )
 
 
-def more_hidden(run: Run, k: int, found: re.Match[str]) -> bool:
+def more_hidden(run: Run, k: int, m: re.Match[str]) -> bool:
     was = 100 * hidden(run, 2)
-    now = 100 * hidden(run, 6)
-    return says(found["was"], was) and says(found["is"], now) and 1.5 < now / was < 2.5
+    after = 100 * hidden(run, 6)
+    return says(m["was"], was) and says(m["is"], after) and 1.5 < after / was < 2.5
 
 
-def beside_edges(run: Run, k: int, found: re.Match[str]) -> bool:
+def beside_edges(run: Run, k: int, m: re.Match[str]) -> bool:
     of_wrong, of_all = near_an_edge(run, -1)
     return (
-        says(found["wrong"], wrong(run, len(run.states) - 1))
+        says(m["wrong"], wrong(run, len(run.states) - 1))
         # what counts as an edge differs by a pixel
-        and abs(number(found["near"]) - 100 * of_wrong) < 3
-        and abs(number(found["all"]) - 100 * of_all) < 5
+        and abs(number(m["near"]) - 100 * of_wrong) < 3
+        and abs(number(m["all"]) - 100 * of_all) < 5
         and of_wrong > 1.5 * of_all
     )
 
 
-def by_chance(run: Run, k: int, found: re.Match[str]) -> bool:
+def by_chance(run: Run, k: int, m: re.Match[str]) -> bool:
     pair = run.subject.pair
     pictures = run.subject
     slices = []
@@ -459,7 +459,7 @@ def by_chance(run: Run, k: int, found: re.Match[str]) -> bool:
         cost[:, d:] = np.abs(pictures.left[:, d:] - pictures.right[:, : 160 - d])
         slices.append(cost)
     off = np.abs(np.argmin(slices, axis=0) - pair.disparity)[pair.visible]
-    return says(found["wrong"], 100.0 * float((off > 1.0).mean()))
+    return says(m["wrong"], 100.0 * float((off > 1.0).mean()))
 
 
 WHYS = {

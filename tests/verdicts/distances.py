@@ -23,20 +23,20 @@ PERCENT = r"(?:less than )?[\d.,]+ %"
 
 
 def right(run: Run, k: int) -> bool | None:
-    now = run.states[k].now
-    if isinstance(now, Found) and len(now.truth):
+    result = run.states[k].now
+    if isinstance(result, Found) and len(result.truth):
         off = _off(run, k)
-        if len(now.asymmetry) and len(off) and off.mean() <= 0.02:
+        if len(result.asymmetry) and len(off) and off.mean() <= 0.02:
             return None  # right, but a step that asks whether it is a metric
         return (
             (True if off.mean() <= 0.02 else False if off.mean() > 0.06 else None)
             if len(off)
             else False
         )
-    if isinstance(now, Trials):
-        return False if now.broken or run.params.metric == "cosine" else None
-    if isinstance(now, Scatter) and now.phase == "told" and now.outlier.any():
-        beyond = (_radii(run, k) > 2.4477)[now.outlier].mean()
+    if isinstance(result, Trials):
+        return False if result.broken or run.params.metric == "cosine" else None
+    if isinstance(result, Scatter) and result.phase == "told" and result.outlier.any():
+        beyond = (_radii(run, k) > 2.4477)[result.outlier].mean()
         return True if beyond >= 0.9 else False if beyond < 0.5 else None
     return None
 
@@ -53,11 +53,11 @@ def _errors(state) -> np.ndarray:
 
 def _radii(run: Run, k: int) -> np.ndarray:
     """Mahalanobis distances, by the sample covariance or by the run's own where that is robust."""
-    now = run.states[k].now
-    assert isinstance(now, Scatter)
+    scatter = run.states[k].now
+    assert isinstance(scatter, Scatter)
     first = run.states[0].now.p
     if run.params.estimate == "robust":
-        return now.d
+        return scatter.d
     return mahalanobis(first, first.mean(axis=0), np.cov(first.T))
 
 
@@ -65,13 +65,13 @@ def _radii(run: Run, k: int) -> np.ndarray:
 
 
 def _mean_and_worst(run: Run, k: int, m: re.Match[str]) -> bool:
-    found = _errors(run.states[k])
-    worst = found[np.abs(found).argmax()]
+    relative = _errors(run.states[k])
+    worst = relative[np.abs(relative).argmax()]
     sense = (worst > 0) == (m["sense"] == "long") or abs(worst) < 1e-12
-    median = m["median"] is None or says_percent(m["median"], np.median(np.abs(found)))
+    median = m["median"] is None or says_percent(m["median"], np.median(np.abs(relative)))
     return bool(
         median
-        and says_percent(m["mean"], np.abs(found).mean())
+        and says_percent(m["mean"], np.abs(relative).mean())
         and says_percent(m["worst"], abs(worst))
         and sense
     )
@@ -81,30 +81,30 @@ def _to_goal(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     assert state.subject is not None
     goal = state.subject.goal
-    found, true = float(state.now.d[goal]), float(true_distances(state)[goal])
-    return near_length(m["found"], found) and near_length(m["true"], true)
+    distance, true = float(state.now.d[goal]), float(true_distances(state)[goal])
+    return near_length(m["found"], distance) and near_length(m["true"], true)
 
 
 def _accepted(run: Run, k: int, m: re.Match[str]) -> bool:
     """So many have a distance that no later step changes."""
-    now = run.states[k].now
-    assert isinstance(now, Front)
+    front = run.states[k].now
+    assert isinstance(front, Front)
     end = next(s.now.d for s in run.states if isinstance(s.now, Found))
-    same = np.array_equal(end[now.accepted], now.d[now.accepted])
-    return same and number(m["n"]) == now.accepted.sum() == np.sum(
-        end <= now.reach * (1 + 1e-9) + 1e-12
+    same = np.array_equal(end[front.accepted], front.d[front.accepted])
+    return same and number(m["n"]) == front.accepted.sum() == np.sum(
+        end <= front.reach * (1 + 1e-9) + 1e-12
     )
 
 
 def _balls(run: Run, k: int, m: re.Match[str]) -> bool:
     """Of the queries so many change their nearest point; by own formulas."""
-    now, a = run.states[k].now, run.params
-    assert isinstance(now, Ball)
+    ball, a = run.states[k].now, run.params
+    assert isinstance(ball, Ball)
     units = np.array([1.0, a.stretch])
-    v = np.abs((now.queries[:, None] - now.p[None]) * units)
+    v = np.abs((ball.queries[:, None] - ball.p[None]) * units)
     C = np.linalg.inv([[1, a.correlation], [a.correlation, 1]])
-    w = (now.queries[:, None] - now.p[None]) * units
-    x, y = now.queries * units, now.p * units
+    w = (ball.queries[:, None] - ball.p[None]) * units
+    x, y = ball.queries * units, ball.p * units
     by = {
         "euclid": (v**2).sum(axis=2),
         "squared": (v**2).sum(axis=2),
@@ -115,64 +115,64 @@ def _balls(run: Run, k: int, m: re.Match[str]) -> bool:
         "cosine": -(x @ y.T) / np.linalg.norm(x, axis=1)[:, None] / np.linalg.norm(y, axis=1),
         "mahalanobis": np.einsum("qpi,ij,qpj->qp", w, C, w),
     }[a.metric]
-    straight = np.linalg.norm(now.queries[:, None] - now.p[None], axis=2)
+    straight = np.linalg.norm(ball.queries[:, None] - ball.p[None], axis=2)
     return says_percent(m["share"], float((by.argmin(axis=1) != straight.argmin(axis=1)).mean()))
 
 
 def _detour(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    assert isinstance(now, Trials)
-    ab, bc, ac = now.sides
+    trials = run.states[k].now
+    assert isinstance(trials, Trials)
+    ab, bc, ac = trials.sides
     return near(m["ac"], ac) and near(m["over"], ab + bc) and ac > ab + bc
 
 
 def _share_broken(run: Run, k: int, m: re.Match[str]) -> bool:
     """As many as of other triples, by formulas of their own."""
-    now, a = run.states[k].now, run.params
-    assert isinstance(now, Trials)
-    if not says_percent(m["share"], now.broken / now.tried):
+    trials, a = run.states[k].now, run.params
+    assert isinstance(trials, Trials)
+    if not says_percent(m["share"], trials.broken / trials.tried):
         return False
     p = np.random.default_rng(77).random((3, 20_000, 2))
 
-    def d(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    def d(first: np.ndarray, other: np.ndarray) -> np.ndarray:
         if a.metric == "cosine":
-            return 1 - (one * other).sum(axis=1) / np.hypot(*one.T) / np.hypot(*other.T)
+            return 1 - (first * other).sum(axis=1) / np.hypot(*first.T) / np.hypot(*other.T)
         if a.metric == "squared":
-            return ((one - other) ** 2).sum(axis=1)
-        return (np.abs(one - other) ** a.p).sum(axis=1) ** (1 / a.p if a.metric == "p" else 1)
+            return ((first - other) ** 2).sum(axis=1)
+        return (np.abs(first - other) ** a.p).sum(axis=1) ** (1 / a.p if a.metric == "p" else 1)
 
     expected = (d(p[0], p[2]) > d(p[0], p[1]) + d(p[1], p[2]) + 1e-9).mean()
     return (
-        abs(expected - now.broken / now.tried)
-        < 4.5 * np.sqrt(expected * (1 - expected) / now.tried) + 0.01
+        abs(expected - trials.broken / trials.tried)
+        < 4.5 * np.sqrt(expected * (1 - expected) / trials.tried) + 0.01
     )
 
 
 def _flagged(run: Run, k: int, m: re.Match[str]) -> bool:
-    now, d = run.states[k].now, _radii(run, k)
-    assert isinstance(now, Scatter)
-    return says_percent(m["share"], float((d[~now.outlier] > 2.4477).mean()))
+    scatter, d = run.states[k].now, _radii(run, k)
+    assert isinstance(scatter, Scatter)
+    return says_percent(m["share"], float((d[~scatter.outlier] > 2.4477).mean()))
 
 
 def _second(run: Run, k: int, m: re.Match[str]) -> bool:
-    now, d = run.states[k].now, _radii(run, k)
-    assert isinstance(now, Scatter)
-    caught = int((d[now.outlier] > 2.4477).sum())
-    return number(m["n"]) == caught and says(m["mean"], float(d[now.outlier].mean()))
+    scatter, d = run.states[k].now, _radii(run, k)
+    assert isinstance(scatter, Scatter)
+    caught = int((d[scatter.outlier] > 2.4477).sum())
+    return number(m["n"]) == caught and says(m["mean"], float(d[scatter.outlier].mean()))
 
 
 def _landmark(run: Run, k: int, m: re.Match[str]) -> bool:
     """Nearest by Euclid's distance, and by the covariance of depth from disparity."""
-    now = run.states[k].now
-    assert isinstance(now, Landmarks)
+    result = run.states[k].now
+    assert isinstance(result, Landmarks)
     near_, told = [], []
-    for x, z in now.seen:
-        v = now.landmarks - [x, z]
+    for x, z in result.seen:
+        v = result.landmarks - [x, z]
         near_.append(int(np.argmin((v**2).sum(axis=1))))
         by_pixel = np.array([[z / 700, -x * z / 84], [0, -z * z / 84]]) / 2
         told.append(int(np.argmin((np.linalg.solve(by_pixel, v.T) ** 2).sum(axis=0))))
-    return says_percent(m["near"], float((np.array(near_) == now.true).mean())) and says_percent(
-        m["told"], float((np.array(told) == now.true).mean())
+    return says_percent(m["near"], float((np.array(near_) == result.true).mean())) and says_percent(
+        m["told"], float((np.array(told) == result.true).mean())
     )
 
 
@@ -193,10 +193,10 @@ def _good(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _weakest(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    assert isinstance(now, HeatState)
+    heat = run.states[k].now
+    assert isinstance(heat, HeatState)
     return (
-        abs(number(m["far"]) - np.log10(np.sort(np.abs(now.u))[len(now.u) // 2] / now.u.max()))
+        abs(number(m["far"]) - np.log10(np.sort(np.abs(heat.u))[len(heat.u) // 2] / heat.u.max()))
         < 0.51
     )
 
@@ -215,7 +215,7 @@ def _as_a_metric(state: State) -> tuple[float, float, float]:
     triples = [
         (a, b, c) for a in range(len(some)) for b in range(len(some)) for c in range(len(some))
     ]
-    a, b, c = np.array([one for one in triples if len(set(one)) == 3]).T
+    a, b, c = np.array([triple for triple in triples if len(set(triple)) == 3]).T
     return (
         float(back.max()),
         float(np.median(back)),
@@ -230,7 +230,7 @@ def _heat_as_a_metric(run: Run, k: int, m: re.Match[str]) -> bool:
     back, median, shorter = _as_a_metric(run.states[k])
     near_ones = (m["back"], back, 0.15), (m["shorter"], shorter, 0.15), (m["median"], median, 0.25)
     return all(
-        abs(number(one.split()[0]) / 100 - true) < share * true for one, true, share in near_ones
+        abs(number(text.split()[0]) / 100 - true) < share * true for text, true, share in near_ones
     )
 
 
@@ -304,9 +304,9 @@ CAPTIONS = [
 
 
 def _ends(run: Run) -> Found:
-    now = run.states[-1].now
-    assert isinstance(now, Found)
-    return now
+    distances = run.states[-1].now
+    assert isinstance(distances, Found)
+    return distances
 
 
 def _times(run: Run) -> np.ndarray:
@@ -380,15 +380,15 @@ def _on_regular(run: Run) -> float:
     return float((d[far] / true[far] - 1).max())
 
 
-def _of(run: Run, found: re.Match[str], *, mean: bool = False) -> bool:
+def _of(run: Run, m: re.Match[str], *, mean: bool = False) -> bool:
     off = np.abs(_errors(run.states[-1]))
-    return says_percent(found["share"], float(off.mean() if mean else off.max()))
+    return says_percent(m["share"], float(off.mean() if mean else off.max()))
 
 
 def _told(run: Run) -> Scatter:
-    now = run.states[4].now
-    assert isinstance(now, Scatter)
-    return now
+    scatter = run.states[4].now
+    assert isinstance(scatter, Scatter)
+    return scatter
 
 
 def _mean_radius(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -396,8 +396,8 @@ def _mean_radius(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _tried(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[-1].now
-    return says_percent(m["share"], now.broken / now.tried)
+    trials = run.states[-1].now
+    return says_percent(m["share"], trials.broken / trials.tried)
 
 
 LINES = {

@@ -20,8 +20,8 @@ def right(run: Run, k: int) -> bool | None:
 
 
 def off(run: Run, k: int, m: re.Match[str]) -> bool:
-    found = errors(run.states[k])
-    return found is not None and near_angle(m[1], found[0]) and near_angle(m[2], found[1])
+    angles = errors(run.states[k])
+    return angles is not None and near_angle(m[1], angles[0]) and near_angle(m[2], angles[1])
 
 
 def near_angle(text: str, degrees: float) -> bool:
@@ -97,9 +97,9 @@ CAPTIONS = (
 
 
 def last_errors(run: Run) -> tuple[float, float]:
-    found = errors(run.states[-1])
-    assert found is not None
-    return found
+    angles = errors(run.states[-1])
+    assert angles is not None
+    return angles
 
 
 def turned_over(run: Run) -> float:

@@ -19,56 +19,56 @@ PERCENT = r"(?:less than )?[\d.,]+ %"
 
 
 def right(run: Run, k: int) -> bool | None:
-    now = run.states[k].now
-    if isinstance(now, Scanned):
-        return home(now) if now.phase == "end" else None
-    if now.phase in ("kept", "matched"):
-        found = share(now)
-        return None if found is None else found > 0.5
+    step = run.states[k].now
+    if isinstance(step, Scanned):
+        return home(step) if step.phase == "end" else None
+    if step.phase in ("kept", "matched"):
+        right_share = share(step)
+        return None if right_share is None else right_share > 0.5
     return None
 
 
 def _share(run: Run, k: int, m: re.Match[str]) -> bool:
-    found = share(run.states[k].now)
-    return found is not None and says_percent(m["share"], found)
+    right_share = share(run.states[k].now)
+    return right_share is not None and says_percent(m["share"], right_share)
 
 
 def _best(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    assert isinstance(now, Scanned)
+    step = run.states[k].now
+    assert isinstance(step, Scanned)
     before = [agreeing(s.now) for s in run.states[:k] if s.now.phase == "sample"]
-    assert now.pairs is not None
-    return number(m["n"]) == agreeing(now) > max(before, default=0) and number(m["of"]) == len(
-        now.pairs
+    assert step.pairs is not None
+    return number(m["n"]) == agreeing(step) > max(before, default=0) and number(m["of"]) == len(
+        step.pairs
     )
 
 
 def _agree(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    assert isinstance(now, Scanned)
-    return number(m["n"]) == agreeing(now)
+    step = run.states[k].now
+    assert isinstance(step, Scanned)
+    return number(m["n"]) == agreeing(step)
 
 
 def _away(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    assert isinstance(now, Scanned)
-    assert now.T_target_source is not None
-    assert now.scans.T_truth is not None
-    degrees = turn(now.T_target_source, now.scans.T_truth)
-    return (near(m["turn"], degrees) or degrees < 0.0011) and near_length(m["off"], off(now))
+    step = run.states[k].now
+    assert isinstance(step, Scanned)
+    assert step.T_target_source is not None
+    assert step.scans.T_truth is not None
+    degrees = turn(step.T_target_source, step.scans.T_truth)
+    return (near(m["turn"], degrees) or degrees < 0.0011) and near_length(m["off"], off(step))
 
 
 def _most_wrong(run: Run, k: int, m: re.Match[str]) -> bool:
-    found = share(run.states[k].now)
-    return found is not None and found <= 0.5
+    right_share = share(run.states[k].now)
+    return right_share is not None and right_share <= 0.5
 
 
 def _partners(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    assert isinstance(now, Outlined)
-    assert now.f_first is not None
-    assert now.f_second is not None
-    a, b = now.f_first, now.f_second
+    step = run.states[k].now
+    assert isinstance(step, Outlined)
+    assert step.f_first is not None
+    assert step.f_second is not None
+    a, b = step.f_first, step.f_second
     cost = (
         0.5
         * np.divide((a - b) ** 2, a + b, out=np.zeros_like(a), where=a + b > 0).sum(axis=1).mean()
@@ -78,16 +78,18 @@ def _partners(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _green(at_least: float | None = None, below: float | None = None):
     def holds(run: Run, k: int, m: re.Match[str]) -> bool:
-        found = next(share(s.now) for s in run.states if s.now.phase in ("kept", "matched"))
-        assert found is not None
-        return (at_least is None or found > at_least) and (below is None or found < below)
+        right_share = next(share(s.now) for s in run.states if s.now.phase in ("kept", "matched"))
+        assert right_share is not None
+        return (at_least is None or right_share > at_least) and (
+            below is None or right_share < below
+        )
 
     return holds
 
 
 def _few(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    return isinstance(now, Scanned) and now.T_target_source is None
+    step = run.states[k].now
+    return isinstance(step, Scanned) and step.T_target_source is None
 
 
 CAPTIONS = (

@@ -38,16 +38,18 @@ def says_square(text: str, value: float, digits: int = 3) -> bool:
 def same(text: str, value: float, share: float = 2e-3) -> bool:
     """A sum of squares to its digits, or as near as two solvers come."""
     numeral, unit = text.rsplit(" ", 1)
-    said = number(numeral) * (1e-6 if unit == "mm²" else 1.0)
-    return says_square(text, value) or abs(said - value) <= share * value + 1e-12
+    written = number(numeral) * (1e-6 if unit == "mm²" else 1.0)
+    return says_square(text, value) or abs(written - value) <= share * value + 1e-12
 
 
 def least_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     unknown = state.now.now.unknown
-    found = cost(state, unknown)
+    squares = cost(state, unknown)
     off = abs(abs(unknown[-1]) - state.subject.truth[-1])
-    return same(m[1], found) and found <= 1.0011 * least(state) and near_length(m[2], float(off))
+    return (
+        same(m[1], squares) and squares <= 1.0011 * least(state) and near_length(m[2], float(off))
+    )
 
 
 def no_circle(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -57,37 +59,37 @@ def no_circle(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     unknown = state.now.now.unknown
     line = straight(state.subject.p)
-    found = cost(state, unknown)
+    squares = cost(state, unknown)
     if not (
-        same(m[1], found)
+        same(m[1], squares)
         and same(m[2], line)
-        and abs(found / line - 1) < 0.5
+        and abs(squares / line - 1) < 0.5
         and abs(unknown[-1]) > 50
     ):
         return False
     if m[3] is None:
-        return found <= 1.0011 * least(state)
-    return same(m[3], least(state)) and found > 1.0009 * least(state)
+        return squares <= 1.0011 * least(state)
+    return same(m[3], least(state)) and squares > 1.0009 * least(state)
 
 
 def another_end(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    found = cost(state, state.now.now.unknown)
-    return same(m[1], found) and same(m[2], least(state)) and found > 1.0009 * least(state)
+    squares = cost(state, state.now.now.unknown)
+    return same(m[1], squares) and same(m[2], least(state)) and squares > 1.0009 * least(state)
 
 
 def no_end(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now.now
-    J = now.jacobian
-    return bool(np.linalg.cond(J.T @ J) > 1e13) or not np.isfinite(now.trial_cost)
+    descent = run.states[k].now.now
+    J = descent.jacobian
+    return bool(np.linalg.cond(J.T @ J) > 1e13) or not np.isfinite(descent.trial_cost)
 
 
 def repeated(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    now = state.now
-    sd = radius_deviation(state, now.unknown)
-    low, high = np.quantile(now.radii, [0.05, 0.95])
-    middle = abs(now.unknown[-1])
+    spread = state.now
+    sd = radius_deviation(state, spread.unknown)
+    low, high = np.quantile(spread.radii, [0.05, 0.95])
+    middle = abs(spread.unknown[-1])
     told = zip(
         m.groups()[:4],
         (low, high, middle - 1.6449 * sd, middle + 1.6449 * sd),
@@ -114,10 +116,10 @@ def _metres(text: str) -> float:
 
 
 def homes(run: Run, k: int) -> float:
-    now = run.states[k].now
-    unknowns = now.now.unknowns.copy()
+    basin = run.states[k].now
+    unknowns = basin.now.unknowns.copy()
     unknowns[:, 2] = abs(unknowns[:, 2])
-    return float((np.abs(unknowns - now.best).max(axis=1) < 0.01).mean())
+    return float((np.abs(unknowns - basin.best).max(axis=1) < 0.01).mean())
 
 
 def came_home(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -138,8 +140,8 @@ def never_rises(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def biased(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[-1].now
-    of = dict(zip(now.circles, now.medians[-1], strict=True))
+    rivals = run.states[-1].now
+    of = dict(zip(rivals.circles, rivals.medians[-1], strict=True))
     return abs(of["geometric"] - 1.005) < 0.0025 and abs(of["Taubin"] - 1.010) < 0.0025
 
 
@@ -195,7 +197,7 @@ def leaps(run: Run, k: int, m: re.Match[str]) -> bool:
         for s in run.states
         if type(s.now).__name__ == "Walked" and s.now.now.phase in ("start", "accepted")
     ]
-    first, second = (cost(run.states[0], now.unknown) for now in kept[:2])
+    first, second = (cost(run.states[0], descent.unknown) for descent in kept[:2])
     return (
         says_square(m[1], first)
         and says_square(m[2], second)
@@ -230,8 +232,8 @@ def right_end(run: Run) -> bool:
 
 
 def median(run: Run, name: str) -> float:
-    now = run.states[-1].now
-    return now.medians[-1][list(now.circles).index(name)]
+    rivals = run.states[-1].now
+    return rivals.medians[-1][list(rivals.circles).index(name)]
 
 
 def kept_share(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -255,7 +257,7 @@ def iteration_near(run: Run, k: int, m: re.Match[str]) -> bool:
     ).x
     moments = [s.now.now for s in run.states if type(s.now).__name__ == "Walked"]
     return int(m[1]) == min(
-        now.iteration for now in moments if np.abs(now.unknown - best).max() < 1e-5
+        descent.iteration for descent in moments if np.abs(descent.unknown - best).max() < 1e-5
     )
 
 
@@ -275,13 +277,13 @@ def slopes(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def escaped(run: Run, k: int, m: re.Match[str]) -> bool:
     state = [s for s in run.states if type(s.now).__name__ == "Walked"][-1]
-    now = state.now.now
+    descent = state.now.now
     return (
-        int(m[1]) == now.iteration
-        and near_length(m[2], abs(now.unknown[-1]))
-        and same(m[3], cost(state, now.unknown))
+        int(m[1]) == descent.iteration
+        and near_length(m[2], abs(descent.unknown[-1]))
+        and same(m[3], cost(state, descent.unknown))
         and same(m[4], straight(state.subject.p))
-        and now.cost < 1.01 * straight(state.subject.p)
+        and descent.cost < 1.01 * straight(state.subject.p)
     )
 
 

@@ -24,19 +24,21 @@ VALUE = rf"(?P<value>{POWER})"
 
 def right(run: Run, k: int) -> bool | None:
     state = run.states[k]
-    now, last = state.now, k == len(run.states) - 1
-    if isinstance(now, Heat):
-        if np.abs(now.u).max() > 1 + 1e-9:
+    result, last = state.now, k == len(run.states) - 1
+    if isinstance(result, Heat):
+        if np.abs(result.u).max() > 1 + 1e-9:
             return False
         return True if last and exact_error(run, k) < 0.01 else None
-    if isinstance(now, Smoothed) and last:
-        first, end = off(state, run.states[0].now.p), off(state, now.p)
+    if isinstance(result, Smoothed) and last:
+        first, end = off(state, run.states[0].now.p), off(state, result.p)
         return False if end > first else True if end < 0.9 * first else None
     if not len(state.subject.classes) or not (
-        last or (isinstance(now, Cut) and now.phase == "sign")
+        last or (isinstance(result, Cut) and result.phase == "sign")
     ):
         return None
-    if isinstance(now, Cut | Trained) or (isinstance(now, Layer) and now.features.shape[1] == 2):
+    if isinstance(result, Cut | Trained) or (
+        isinstance(result, Layer) and result.features.shape[1] == 2
+    ):
         share = correct(state) / len(state.subject.classes)
         return True if share >= 0.9 else False if share < 0.75 else None
     return None
@@ -58,27 +60,29 @@ def _true_sides(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     misses = np.flatnonzero(told(state) != state.subject.classes)
     named = (
-        [] if not m["nodes"] else [int(number(one)) for one in re.split(r", (?=\d)", m["nodes"])]
+        []
+        if not m["nodes"]
+        else [int(number(numeral)) for numeral in re.split(r", (?=\d)", m["nodes"])]
     )
     good = number(m["n"]) == correct(state) and number(m["all"]) == len(state.subject.p)
     return good and (named == misses.tolist() if named else not 0 < len(misses) <= 3)
 
 
 def _cut(run: Run, k: int, m: re.Match[str]) -> bool:
-    now, a = run.states[k].now, A(run.states[k])
-    assert isinstance(now, Cut)
-    cut = a[np.ix_(now.side, ~now.side)].sum()
-    smaller = min(a[now.side].sum(), a[~now.side].sum())
+    result, a = run.states[k].now, A(run.states[k])
+    assert isinstance(result, Cut)
+    cut = a[np.ix_(result.side, ~result.side)].sum()
+    smaller = min(a[result.side].sum(), a[~result.side].sum())
     phi = cut / smaller if smaller else 1.0
-    sizes = number(m["near"]) == now.side.sum() and number(m["far"]) == (~now.side).sum()
+    sizes = number(m["near"]) == result.side.sum() and number(m["far"]) == (~result.side).sum()
     return bool(sizes and near(m["cut"], cut) and near(m["phi"], phi, 2))
 
 
 def _least(run: Run, k: int, m: re.Match[str]) -> bool:
     """No cut along the vector is better."""
-    now, a = run.states[k].now, A(run.states[k])
-    assert isinstance(now, Cut)
-    order = np.argsort(now.fiedler, kind="stable")
+    result, a = run.states[k].now, A(run.states[k])
+    assert isinstance(result, Cut)
+    order = np.argsort(result.fiedler, kind="stable")
     a, d = a[np.ix_(order, order)], a.sum(axis=1)[order]
     best, cut = np.inf, 0.0
     for i in range(
@@ -87,7 +91,7 @@ def _least(run: Run, k: int, m: re.Match[str]) -> bool:
         cut += d[i - 1] - 2 * a[i - 1, : i - 1].sum()
         smaller = min(d[:i].sum(), d[i:].sum())
         best = min(best, cut / smaller if smaller else 1.0)
-    return abs(best - now.conductance) < 1e-9
+    return abs(best - result.conductance) < 1e-9
 
 
 def _pieces(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -99,35 +103,35 @@ def _pieces(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _one_way(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    assert isinstance(now, Grown)
+    result = run.states[k].now
+    assert isinstance(result, Grown)
     apart = np.linalg.norm(run.states[k].subject.p[:, None] - run.states[k].subject.p, axis=2)
     np.fill_diagonal(apart, np.inf)
-    names = apart <= np.partition(apart, now.k - 1, axis=1)[:, now.k - 1 : now.k]
+    names = apart <= np.partition(apart, result.k - 1, axis=1)[:, result.k - 1 : result.k]
     return says_percent(m["share"], 1 - (names & names.T).sum() / names.sum())
 
 
 def _mode(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    now = state.now
-    assert isinstance(now, Mode)
+    result = state.now
+    assert isinstance(result, Mode)
     if run.params.laplacian != "plain":
         return True  # of the mesh: beside the truth, which is claimed apart
     values = modes(state.adjacency)[0]
-    scale = 2 / values[1:4].mean() if state.subject.of_surface and len(now.values) > 3 else 1.0
-    return near(m["value"], values[now.index] * scale)
+    scale = 2 / values[1:4].mean() if state.subject.of_surface and len(result.values) > 3 else 1.0
+    return near(m["value"], values[result.index] * scale)
 
 
 def _reached(run: Run, k: int, m: re.Match[str]) -> bool:
     """So many nodes are at most so many edges from a label, and so many are right."""
     state = run.states[k]
-    now, a = state.now, A(state) > 0
-    assert isinstance(now, Layer)
+    result, a = state.now, A(state) > 0
+    assert isinstance(result, Layer)
     have = np.isin(np.arange(len(a)), state.subject.labelled)
-    for _ in range(now.layer):
+    for _ in range(result.layer):
         have = have | a[have].any(axis=0)
-    there = have.sum() == (len(a) if m["every"] else number(m["heard"]))
-    return bool(there and (m["right"] is None or number(m["right"]) == correct(state)))
+    agrees = have.sum() == (len(a) if m["every"] else number(m["heard"]))
+    return bool(agrees and (m["right"] is None or number(m["right"]) == correct(state)))
 
 
 def _apart(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -151,7 +155,7 @@ def _volume(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _same(run: Run, k: int) -> bool:
     state = run.states[k]
-    sums = [state.now.features[state.subject.classes == one].sum(axis=0) for one in (0, 1)]
+    sums = [state.now.features[state.subject.classes == group].sum(axis=0) for group in (0, 1)]
     return bool(np.allclose(*sums, rtol=1e-9))
 
 
@@ -163,9 +167,9 @@ def _applied(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def last_cut(run: Run) -> Cut:
-    now = run.states[-1].now
-    assert isinstance(now, Cut)
-    return now
+    result = run.states[-1].now
+    assert isinstance(result, Cut)
+    return result
 
 
 def middle(run: Run) -> float:
@@ -258,10 +262,10 @@ def _spectra_of_pair(run: Run, of_A: list, of_L: list) -> bool:
     whole, classes = A(run.states[0]), run.states[0].subject.classes
     good = True
     for which in (0, 1):
-        one = whole[np.ix_(classes == which, classes == which)]
-        good &= np.allclose(np.linalg.eigvalsh(one), of_A[which], atol=1e-9)
+        part = whole[np.ix_(classes == which, classes == which)]
+        good &= np.allclose(np.linalg.eigvalsh(part), of_A[which], atol=1e-9)
         good &= np.allclose(
-            np.linalg.eigvalsh(np.diag(one.sum(axis=1)) - one), of_L[which], atol=1e-9
+            np.linalg.eigvalsh(np.diag(part.sum(axis=1)) - part), of_L[which], atol=1e-9
         )
     return bool(good)
 

@@ -62,8 +62,8 @@ def flat(run: Run) -> bool:
 
 def folded(angle: float) -> float:
     """The same direction within (-180, 180]."""
-    found = float(np.degrees(np.angle(np.exp(1j * np.radians(angle)))))
-    return found if found > -180.0 + 1e-9 else 180.0
+    direction = float(np.degrees(np.angle(np.exp(1j * np.radians(angle)))))
+    return direction if direction > -180.0 + 1e-9 else 180.0
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -75,17 +75,17 @@ def right(run: Run, k: int) -> bool | None:
     return home(run.subject, state.T_target_source)
 
 
-def angle_close(said: str, true: float) -> bool:
-    return true < 0.0011 if said.startswith("less") else near(said, true)
+def angle_close(text: str, true: float) -> bool:
+    return true < 0.0011 if text.startswith("less") else near(text, true)
 
 
 def stood_still(run: Run, k: int, _: re.Match[str]) -> bool:
     before = run.states[k - 1]
-    now = run.states[k]
+    after = run.states[k]
     if flat(run):
-        return abs(now.angle - before.angle) <= 0.05
+        return abs(after.angle - before.angle) <= 0.05
     p = run.subject.p_source
-    step = moved(now.T_target_source, p) - moved(before.T_target_source, p)
+    step = moved(after.T_target_source, p) - moved(before.T_target_source, p)
     size = float(np.linalg.norm(np.ptp(p, axis=0)))
     return float(np.linalg.norm(step, axis=1).max()) <= 1e-5 * size
 
@@ -98,11 +98,11 @@ def rests(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def came_round(run: Run, k: int, _: re.Match[str]) -> bool:
-    now = run.states[k]
+    state = run.states[k]
     return any(
-        np.array_equal(s.indices, now.indices) and np.array_equal(s.kept, now.kept)
+        np.array_equal(s.indices, state.indices) and np.array_equal(s.kept, state.kept)
         for s in run.states[: k - 1]
-        if s.iteration < now.iteration
+        if s.iteration < state.iteration
     )
 
 
@@ -116,14 +116,14 @@ def row(run: Run, k: int, _: re.Match[str]) -> bool:
 
 
 def edge_of(run: Run, k: int) -> float:
-    said = [
+    arrived = [
         s.start_angle
         for i, s in enumerate(run.states[: k + 1])
         if isinstance(s, Try) and try_home(run, i)
     ]
     first = next(i for i, state in enumerate(run.states) if isinstance(state, Try))
     lost = [run.states[i].start_angle for i in range(first, k + 1) if not try_home(run, i)]
-    return max(angle for angle in said if angle < min(lost, default=999.0))
+    return max(angle for angle in arrived if angle < min(lost, default=999.0))
 
 
 CAPTIONS = (
@@ -319,8 +319,10 @@ def costs(run: Run) -> np.ndarray:
     from tests.truths.icp import turned
 
     tree = KDTree(run.subject.p_target)
-    found = [tree.query(turned(run.subject.p_source, state.angle))[0] for state in run.states[:-1]]
-    return np.sqrt((np.array(found) ** 2).mean(axis=1))
+    distances = [
+        tree.query(turned(run.subject.p_source, state.angle))[0] for state in run.states[:-1]
+    ]
+    return np.sqrt((np.array(distances) ** 2).mean(axis=1))
 
 
 def valleys(run: Run) -> int:

@@ -29,13 +29,13 @@ ERROR = rf"(exact|off by less than 0\.01 %|\+?{NUMBER} %)"
 PERCENT = rf"({NUMBER} %|less than 0\.01 %)"
 
 
-def off(said: str, error: float) -> bool:
+def off(text: str, error: float) -> bool:
     """Whether "exact", "+17 %" or "off by less than 0.01 %" says a relative error."""
-    if said == "exact":
+    if text == "exact":
         return abs(error) < 1e-8
-    if said.startswith("off"):
+    if text.startswith("off"):
         return abs(error) < 1.01e-4
-    return abs(number(said.removesuffix(" %").removeprefix("+")) - 100 * error) <= 0.051 * max(
+    return abs(number(text.removesuffix(" %").removeprefix("+")) - 100 * error) <= 0.051 * max(
         1.0, abs(100 * error)
     )
 
@@ -85,17 +85,17 @@ def _all_volume(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _cells(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    count, edge = int(now.bits.sum()), float(now.grid.spacing[0])
+    result = run.states[k].now
+    count, edge = int(result.bits.sum()), float(result.grid.spacing[0])
     side = np.ptp([run.states[k].subject.low, run.states[k].subject.high], axis=0).max()
     volume = count * edge**3
-    said = number(m[1]) == round(side / edge) and number(m[2]) == count and near(m[3], volume, 4)
-    return said and off(m[4], volume / truth(run.states[k])[1] - 1)
+    agrees = number(m[1]) == round(side / edge) and number(m[2]) == count and near(m[3], volume, 4)
+    return agrees and off(m[4], volume / truth(run.states[k])[1] - 1)
 
 
 def _walls(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    area = walls(now.bits, float(now.grid.spacing[0]))
+    result = run.states[k].now
+    area = walls(result.bits, float(result.grid.spacing[0]))
     return near(m[1], area, 4) and abs(number(m[2]) - area / truth(run.states[k])[0]) < 0.0051
 
 
@@ -151,11 +151,11 @@ def _lines(run: Run, k: int, m: re.Match[str]) -> bool:
             state.subject.p - (state.subject.low + state.subject.high) / 2, axis=1
         ).max()
     )
-    said = (
+    agrees = (
         abs(number(m[3]) - total / n) < 0.0051
         and abs(area / (2 * np.pi * radius**2 * total / n) - 1) < 1e-3
     )
-    return said and near(m[6], truth(state)[0], 4) and off(m[7], area / truth(state)[0] - 1)
+    return agrees and near(m[6], truth(state)[0], 4) and off(m[7], area / truth(state)[0] - 1)
 
 
 def _quarters(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -167,9 +167,9 @@ def _quarters(run: Run, k: int, m: re.Match[str]) -> bool:
         np.linalg.norm(np.cross(y - q, z - q), axis=1) / whole > 0.5
         for y, z in ((b, c), (c, a), (a, b))
     ]
-    shares = [100 * one.mean() for one in at] + [100 * (1 - np.any(at, axis=0).mean())]
+    shares = [100 * quarter.mean() for quarter in at] + [100 * (1 - np.any(at, axis=0).mean())]
     return all(
-        abs(number(said) - share) < 0.51 for said, share in zip(m.groups(), shares, strict=True)
+        abs(number(text) - share) < 0.51 for text, share in zip(m.groups(), shares, strict=True)
     )
 
 
@@ -178,8 +178,8 @@ def _samples(run: Run, k: int, m: re.Match[str]) -> bool:
     mesh, q = mesh_of(state.subject, whole=True), state.now.q
     right_half = mesh.area_faces[mesh.triangles_center[:, 0] > 0].sum() / mesh.area
     gap = np.linalg.norm(q.mean(axis=0) - mesh.centroid) / np.linalg.norm(mesh.extents)
-    said = number(m[1]) == len(q) and abs(number(m[2]) - 100 * (q[:, 0] > 0).mean()) < 0.51
-    return said and abs(number(m[3]) - 100 * right_half) < 0.51 and says_percent(m[4], float(gap))
+    agrees = number(m[1]) == len(q) and abs(number(m[2]) - 100 * (q[:, 0] > 0).mean()) < 0.51
+    return agrees and abs(number(m[3]) - 100 * right_half) < 0.51 and says_percent(m[4], float(gap))
 
 
 def ball_share(d: int) -> float:
@@ -311,9 +311,9 @@ def last(run: Run):
 
 
 def shares(run: Run) -> np.ndarray:
-    now = last(run).now
-    assert isinstance(now, Cells)
-    return np.array(now.areas) / truth(last(run))[0]
+    result = last(run).now
+    assert isinstance(result, Cells)
+    return np.array(result.areas) / truth(last(run))[0]
 
 
 def lost(run: Run) -> float:
@@ -339,8 +339,8 @@ def _watched(share: float, counts: tuple[int, ...]) -> tuple[float, float]:
 
 def _peeked(run: Run, k: int, m: re.Match[str]) -> bool:
     s, counts = run.states[k].subject, run.states[k].now.estimates.counts
-    now, ever = _watched(truth(run.states[k])[1] / float(np.prod(s.high - s.low)), counts)
-    close = abs(number(m[1]) / 100 - now) < 0.04 and abs(number(m[2]) / 100 - ever) < 0.08
+    at_end, ever = _watched(truth(run.states[k])[1] / float(np.prod(s.high - s.low)), counts)
+    close = abs(number(m[1]) / 100 - at_end) < 0.04 and abs(number(m[2]) / 100 - ever) < 0.08
     return close and number(m[3]) == len(counts)
 
 
@@ -447,13 +447,17 @@ LINES = {
 
 
 def _tenfold(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = last(run).now
-    assert isinstance(now, Throws)
+    result = last(run).now
+    assert isinstance(result, Throws)
     errors = dict(
-        zip(now.estimates.counts, np.array(now.estimates.errors) / truth(last(run))[1], strict=True)
+        zip(
+            result.estimates.counts,
+            np.array(result.estimates.errors) / truth(last(run))[1],
+            strict=True,
+        )
     )
-    said = says_percent(m[2], errors[1000]) and says_percent(m[3], errors[100_000])
-    return said and abs(number(m[1]) - 100) < 1 and abs(errors[1000] / errors[100_000] - 10) < 0.3
+    agrees = says_percent(m[2], errors[1000]) and says_percent(m[3], errors[100_000])
+    return agrees and abs(number(m[1]) - 100) < 1 and abs(errors[1000] / errors[100_000] - 10) < 0.3
 
 
 WHYS = {

@@ -55,10 +55,10 @@ def off(run: Run, k: int = FLIP) -> float:
     true = run.subject.T_target_source
     if true is None or np.linalg.det(T[:3, :3]) < 0:
         return float("nan")
-    one, other = (
+    rotation, other = (
         Rotation.from_matrix(A[:3, :3] / np.cbrt(np.linalg.det(A[:3, :3]))) for A in (T, true)
     )
-    return float(np.degrees((one * other.inv()).magnitude()))
+    return float(np.degrees((rotation * other.inv()).magnitude()))
 
 
 def scale(run: Run, k: int = SCALE) -> float:
@@ -70,7 +70,7 @@ def true_scale(run: Run) -> float:
 
 
 def strengths(run: Run) -> np.ndarray:
-    p, q = (one - one.mean(axis=0) for one in (run.subject.p_target, run.subject.p_source))
+    p, q = (points - points.mean(axis=0) for points in (run.subject.p_target, run.subject.p_source))
     return 1e4 * np.linalg.svd(p.T @ q / len(p), compute_uv=False)
 
 
@@ -91,8 +91,8 @@ CAPTIONS = (
 
 def turn_in(run: Run, k: int) -> float:
     before = map_of(run, k - 1)[:3, :3]
-    now = map_of(run, k)[:3, :3]
-    return float(np.degrees(Rotation.from_matrix(now @ before.T).magnitude()))
+    after = map_of(run, k)[:3, :3]
+    return float(np.degrees(Rotation.from_matrix(after @ before.T).magnitude()))
 
 
 VALUES = {
@@ -147,9 +147,12 @@ def there_and_back(run: Run, k: int, m: re.Match[str]) -> bool:
     p, q = run.subject.p_target, run.subject.p_source
     p, q = p - p.mean(axis=0), q - q.mean(axis=0)
     trace = np.linalg.svd(p.T @ q, compute_uv=False).sum()
-    there, back = trace / (q**2).sum(), trace / (p**2).sum()
-    said = [float(m[i]) for i in (1, 2, 3)]
-    return bool(np.allclose(said, [there, back, there * back], atol=6e-4)) and there * back < 0.98
+    forward, back = trace / (q**2).sum(), trace / (p**2).sum()
+    written = [float(m[i]) for i in (1, 2, 3)]
+    return (
+        bool(np.allclose(written, [forward, back, forward * back], atol=6e-4))
+        and forward * back < 0.98
+    )
 
 
 WHYS = {

@@ -76,9 +76,9 @@ def at(stage: str, axis: int):
 
 
 def _z(run: Run, k: int) -> float:
-    found = calculated(run)
+    stages = calculated(run)
     return float(
-        (found["z"] if k == len(STAGES) - 1 else found["camera"][:, 2])[followed(run.params)]
+        (stages["z"] if k == len(STAGES) - 1 else stages["camera"][:, 2])[followed(run.params)]
     )
 
 
@@ -88,9 +88,9 @@ def _x_or_y(axis: int):
 
 def _moves(run: Run) -> np.ndarray:
     """How far the lens moves each point, in pixels of the true K."""
-    found = calculated(run)
+    stages = calculated(run)
     f = edited(run.params, camera(run.params)[2])[0, 0]
-    return f * np.linalg.norm(found["distort"] - found["divide"], axis=1)
+    return f * np.linalg.norm(stages["distort"] - stages["divide"], axis=1)
 
 
 def _gap(run: Run, k: int) -> float:
@@ -167,9 +167,9 @@ def _wrong(mistake: str):
 
 
 def _inward(run: Run, k: int, m: re.Match[str]) -> bool:
-    found = calculated(run)
+    stages = calculated(run)
     i = followed(run.params)
-    nearer = np.linalg.norm(found["distort"][i]) < np.linalg.norm(found["divide"][i])
+    nearer = np.linalg.norm(stages["distort"][i]) < np.linalg.norm(stages["divide"][i])
     return bool(nearer == (m[1] == "inwards"))
 
 
@@ -334,9 +334,9 @@ def _tangential(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _folds(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[STAGES.index("divide")].now
-    beyond = np.linalg.norm(now.xy, axis=1) > 0.745
-    x, y = now.xy[beyond].T
+    state = run.states[STAGES.index("divide")].now
+    beyond = np.linalg.norm(state.xy, axis=1) > 0.745
+    x, y = state.xy[beyond].T
     s = x * x + y * y
     folded = np.array([x, y]).T * (1 - 0.6 * s)[:, None] * run.params.f
     back = (np.abs(folded) < (160, 120)).all(axis=1).any()

@@ -23,8 +23,8 @@ from workbench.geometry.cameras.control_points import epnp
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right", "until_the_end"]
 OF_MANY = {
-    replace(one.params, seed=0)
-    for one in (*lesson.questions, lesson.preset("tiny"), lesson.preset("safe"))
+    replace(case.params, seed=0)
+    for case in (*lesson.questions, lesson.preset("tiny"), lesson.preset("safe"))
 }
 """Params whose sentences speak of the other pictures."""
 
@@ -72,8 +72,8 @@ def best(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def swapped(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    return abs(number(m[1]) - 100 * now.swapped / now.pictures) <= 0.5
+    repeated = run.states[k].now
+    return abs(number(m[1]) - 100 * repeated.swapped / repeated.pictures) <= 0.5
 
 
 def counted(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -92,7 +92,7 @@ def turned_far(run: Run, k: int, m: re.Match[str]) -> bool:
     n = len(run.states[k].subject.p_shown)
     shares = shares_turned_far(run.states[k].params, n)
     return all(
-        abs(number(said) - share) <= 0.51 for share, said in zip(shares, m.groups(), strict=True)
+        abs(number(text) - share) <= 0.51 for share, text in zip(shares, m.groups(), strict=True)
     )
 
 
@@ -104,8 +104,8 @@ def shares_turned_far(params: Params, n: int) -> tuple[float, ...]:
     xy = xy + params.noise / params.f * rng.standard_normal(xy.shape)
     shares = []
     for solver in (epnp, sqpnp):
-        found = np.stack([solver(a, b)[:3, :3] for a, b in zip(p, xy, strict=True)])
-        turn = Rotation.from_matrix(found) * Rotation.from_matrix(R_true).inv()
+        R = np.stack([solver(a, b)[:3, :3] for a, b in zip(p, xy, strict=True)])
+        turn = Rotation.from_matrix(R) * Rotation.from_matrix(R_true).inv()
         shares.append(100 * float((turn.magnitude() > np.radians(5)).mean()))
     return tuple(shares)
 
@@ -139,9 +139,9 @@ def left_to_chance(run: Run, k: int, m: re.Match[str]) -> bool:
     """In a good part of the pictures, but not in most, the other pose fits better; by less than the
     noise adds up to.
     """
-    found = others(run)
-    assert found.swapped is not None
-    return 0.15 < found.swapped / found.pictures < 0.7
+    repeated = others(run)
+    assert repeated.swapped is not None
+    return 0.15 < repeated.swapped / repeated.pictures < 0.7
 
 
 LINES = {

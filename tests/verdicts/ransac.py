@@ -59,14 +59,14 @@ def distance(name: str) -> str:
     return rf"(?P<{name}>{NUMBER} (?:mm|µm|m|px))"
 
 
-def same(said: str, value: float) -> bool:
+def same(text: str, value: float) -> bool:
     """Whether a distance as it is written is this one, to the digits that are written: of thousands
     of pixels two.
     """
     return (
-        near(said.removesuffix(" px"), value, 3 if value < 1e3 else 2)
-        if said.endswith("px")
-        else near_length(said, value)
+        near(text.removesuffix(" px"), value, 3 if value < 1e3 else 2)
+        if text.endswith("px")
+        else near_length(text, value)
     )
 
 
@@ -81,7 +81,7 @@ def votes(run: Run, k: int) -> float:
         a, b, c = run.subject.truth
         ends = np.array([0.0, -c / b]) + state.apart * np.array([[-0.5], [0.5]]) * [b, -a]
         noise = run.params.noise * np.random.default_rng(run.params.seed).normal(size=(30, 2, 2))
-        return float(np.median([votes_on(run, line_through(ends + one)) for one in noise]))
+        return float(np.median([votes_on(run, line_through(ends + errors)) for errors in noise]))
     return votes_on(run, state.estimate if state.phase == "inliers" else state.best.estimate)
 
 
@@ -96,7 +96,7 @@ def best(run: Run, k: int) -> float:
 
 
 def clean_so_far(run: Run, k: int) -> int:
-    return sum(run.subject.is_inlier[one.sample].all() for one in run.states[: k + 1])
+    return sum(run.subject.is_inlier[state.sample].all() for state in run.states[: k + 1])
 
 
 def in_band(run: Run, k: int) -> np.ndarray:
@@ -161,43 +161,43 @@ VALUES = {
 
 def chosen(run: Run, k: int) -> Any:
     """The fit that was kept last, before the final refit."""
-    return next(now.best for now in run.states[k::-1] if now.phase == "best")
+    return next(state.best for state in run.states[k::-1] if state.phase == "best")
 
 
-def stays(run: Run, k: int, found: re.Match[str]) -> bool:
-    now, after = run.states[k], run.states[k + 1]
-    replaced = after.phase == "best" and after.iteration == now.iteration
-    return now.trial.score <= now.best.score and not replaced
+def stays(run: Run, k: int, m: re.Match[str]) -> bool:
+    before, after = run.states[k], run.states[k + 1]
+    replaced = after.phase == "best" and after.iteration == before.iteration
+    return before.trial.score <= before.best.score and not replaced
 
 
-def is_new_best(run: Run, k: int, found: re.Match[str]) -> bool:
+def is_new_best(run: Run, k: int, m: re.Match[str]) -> bool:
     """It beats every best before it."""
-    now = run.states[k]
+    latest = run.states[k]
     return all(
-        now.best.score > state.best.score for state in run.states[:k] if state.best is not None
+        latest.best.score > state.best.score for state in run.states[:k] if state.best is not None
     )
 
 
-def needs_more(run: Run, k: int, found: re.Match[str]) -> bool:
+def needs_more(run: Run, k: int, m: re.Match[str]) -> bool:
     enough = enough_for(
         share_for_stop(run, k), run.subject.model.sample_size, run.params.confidence
     )
     return enough >= run.params.most_samples
 
 
-def stopped(run: Run, k: int, found: re.Match[str]) -> bool:
+def stopped(run: Run, k: int, m: re.Match[str]) -> bool:
     last_best = max(i for i in range(k) if run.states[i].phase == "best")
     asked = enough_for(
         share_for_stop(run, last_best), run.subject.model.sample_size, run.params.confidence
     )
     drawn_here = run.states[k].iteration
-    if found["why"] == "A":
+    if m["why"] == "A":
         return drawn_here >= asked
     return drawn_here == run.params.most_samples <= asked
 
 
-def clean_draw(run: Run, k: int, found: re.Match[str]) -> bool:
-    return run.subject.is_inlier[run.states[k].sample].all() == (found["what"] == "clean")
+def clean_draw(run: Run, k: int, m: re.Match[str]) -> bool:
+    return run.subject.is_inlier[run.states[k].sample].all() == (m["what"] == "clean")
 
 
 CAPTIONS = (
@@ -215,9 +215,9 @@ CAPTIONS = (
     Claim(
         r"the best [\w ]+ has",
         lambda run, k, _: all(
-            now.trial.score <= chosen(run, k).score
-            for now in run.states[:k]
-            if now.phase == "inliers"
+            state.trial.score <= chosen(run, k).score
+            for state in run.states[:k]
+            if state.phase == "inliers"
         ),
     ),
     Claim(
@@ -235,7 +235,7 @@ CAPTIONS = (
 
 def at(seed: int, holds: Callable[[Run], bool]) -> Callable[[Run, int, re.Match[str]], bool]:
     """Judge a number that is seen at the preset's own seed, and there alone."""
-    return lambda run, k, found: run.params.seed != seed or holds(run)
+    return lambda run, k, m: run.params.seed != seed or holds(run)
 
 
 def both_kept(run: Run) -> bool:
@@ -243,7 +243,7 @@ def both_kept(run: Run) -> bool:
     return near("5", 1e3 * kept(run), 1) and near("49", 1e3 * by_count, 2)
 
 
-def twice_as_many(run: Run, k: int, found: re.Match[str]) -> bool:
+def twice_as_many(run: Run, k: int, m: re.Match[str]) -> bool:
     """Of the points on either plane: the wall is upright in the table's own directions, 1 m from
     its middle.
     """
@@ -264,7 +264,7 @@ def trusted_ends(run: Run) -> bool:
     return (drawn(run), drawn(by_chance)) == (14, 375)
 
 
-def picked_are_inliers(run: Run, k: int, found: re.Match[str]) -> bool:
+def picked_are_inliers(run: Run, k: int, m: re.Match[str]) -> bool:
     rows = run.states[0].sample
     spread = float(np.linalg.norm(np.ptp(run.subject.p[rows], axis=0)))
     return picked(run) and bool(run.subject.is_inlier[rows].all() and spread < 0.3)
@@ -274,7 +274,7 @@ def picked(run: Run) -> bool:
     return set(run.states[0].sample) == set(run.params.sample[1:])
 
 
-def on_a_wire(run: Run, k: int, found: re.Match[str]) -> bool:
+def on_a_wire(run: Run, k: int, m: re.Match[str]) -> bool:
     """The picked points are on one line, give no plane, and another sample follows."""
     first, second = run.states[0], run.states[1]
     line = np.linalg.matrix_rank(np.diff(run.subject.p[first.sample], axis=0), tol=1e-9) == 1
@@ -390,8 +390,8 @@ LINES = {
 # explanations -------------------------------------------------------------------------------------
 
 
-def of_one_sample(run: Run, k: int, found: re.Match[str]) -> bool:
-    w, cube, spoilt, needed = (float(found[name]) for name in ("w", "cube", "spoilt", "n"))
+def of_one_sample(run: Run, k: int, m: re.Match[str]) -> bool:
+    w, cube, spoilt, needed = (float(m[name]) for name in ("w", "cube", "spoilt", "n"))
     return (
         abs(w**3 - cube) < 6e-4
         and abs(1 - w**3 - spoilt) < 6e-4
@@ -400,23 +400,23 @@ def of_one_sample(run: Run, k: int, found: re.Match[str]) -> bool:
     )
 
 
-def reach_of_the_picked(run: Run, k: int, found: re.Match[str]) -> bool:
+def reach_of_the_picked(run: Run, k: int, m: re.Match[str]) -> bool:
     state = next(state for state in run.states if state.phase == "inliers")
     true = run.subject.p[run.subject.is_inlier]
     reached = (apart("plane", state.estimate, true) <= limit_of(run)).mean()
-    return abs(100 * reached - float(found["n"])) <= 0.5 + 1e-9
+    return abs(100 * reached - float(m["n"])) <= 0.5 + 1e-9
 
 
-def on_the_wall(run: Run, k: int, found: re.Match[str]) -> bool:
+def on_the_wall(run: Run, k: int, m: re.Match[str]) -> bool:
     best, true = run.states[-1].best, run.subject.is_inlier
     of_table = (best.inliers & true).sum() / true.sum()
     k = len(run.states) - 1
-    told = [int(found[name]) for name in ("n", "wall", "table", "clutter")]
+    told = [int(m[name]) for name in ("n", "wall", "table", "clutter")]
     counts = [VALUES[name](run, k) for name in ("wall", "table", "clutter")]
     return told == [sum(counts), *counts] and abs(best.estimate[2]) < 0.3 and of_table < 0.1
 
 
-def pull_upwards(run: Run, k: int, found: re.Match[str]) -> bool:
+def pull_upwards(run: Run, k: int, m: re.Match[str]) -> bool:
     """Of the outliers, nine in ten lie above the table."""
     subject = run.subject
     truth = subject.truth * np.sign(subject.truth[2])
@@ -424,11 +424,11 @@ def pull_upwards(run: Run, k: int, found: re.Match[str]) -> bool:
     return bool((off > 0).mean() > 0.9)
 
 
-def three_errors(run: Run, k: int, found: re.Match[str]) -> bool:
+def three_errors(run: Run, k: int, m: re.Match[str]) -> bool:
     return (
-        same(found["r"], last_error(run))
-        and same(found["h"], error_of_rival(run, "Huber"))
-        and same(found["s"], error_of_rival(run, "least squares"))
+        same(m["r"], last_error(run))
+        and same(m["h"], error_of_rival(run, "Huber"))
+        and same(m["s"], error_of_rival(run, "least squares"))
     )
 
 
@@ -440,7 +440,7 @@ WHYS = {
             r" below 0\.01",
             of_one_sample,
         ),
-        Claim(r"This run drew (\d+)", lambda run, k, found: int(found[1]) == drawn(run)),
+        Claim(r"This run drew (\d+)", lambda run, k, m: int(m[1]) == drawn(run)),
         Claim("for its best so far", None),
     ),
     "predict-near-sample": (
@@ -455,19 +455,19 @@ WHYS = {
         ),
         Claim(
             rf"the points of the table are {distance('n')} from it \(RMS\)",
-            lambda run, k, found: same(found["n"], last_error(run)),
+            lambda run, k, m: same(m["n"], last_error(run)),
         ),
     ),
     "predict-size": (
         Claim(
             r"samples of four need (\d+) draws, samples of seven (\d+)",
-            lambda run, k, found: (
-                (int(found[1]), int(found[2])) == (at_true_share(run, 4), at_true_share(run, 7))
+            lambda run, k, m: (
+                (int(m[1]), int(m[2])) == (at_true_share(run, 4), at_true_share(run, 7))
             ),
         ),
         Claim(
             r"This run drew (\d+)",
-            lambda run, k, found: int(found[1]) == drawn(run) >= at_true_share(run, 7),
+            lambda run, k, m: int(m[1]) == drawn(run) >= at_true_share(run, 7),
         ),
     ),
     "predict-huber": (

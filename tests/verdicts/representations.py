@@ -39,8 +39,8 @@ def says_size(text: str, count: float) -> bool:
 def says_more(text: str, share: float) -> bool:
     if text == "the same":
         return abs(share - 1) < 1.01e-4
-    said, which = text.rsplit(" ", 1)
-    return (which == "more") == (share > 1) and says_percent(said, abs(share - 1))
+    percent, which = text.rsplit(" ", 1)
+    return (which == "more") == (share > 1) and says_percent(percent, abs(share - 1))
 
 
 def _errors(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -56,30 +56,30 @@ def _volume(run: Run, k: int, m: re.Match[str]) -> bool:
 def _cloud(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     away = np.asarray(scipy.spatial.KDTree(state.now.p).query(state.subject.on)[0])
-    said = near_length(m[3], away.mean(), 2) and near_length(m[4], away.max(), 2)
-    return said and number(m[1]) == len(state.now.p) and says_size(m[2], 12 * len(state.now.p))
+    agrees = near_length(m[3], away.mean(), 2) and near_length(m[4], away.max(), 2)
+    return agrees and number(m[1]) == len(state.now.p) and says_size(m[2], 12 * len(state.now.p))
 
 
 def _edges(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
+    form = run.states[k].now
     count = 1 if m[1] == "nearest one" else int(m[1].split(" ")[0])
-    rows = np.asarray(scipy.spatial.KDTree(now.p).query(now.p, count + 1)[1])
+    rows = np.asarray(scipy.spatial.KDTree(form.p).query(form.p, count + 1)[1])
     pairs = np.unique(
         np.sort(np.column_stack([np.repeat(rows[:, 0], count), rows[:, 1:].ravel()]), axis=1),
         axis=0,
     )
-    n = len(now.p)
+    n = len(form.p)
     ones = np.ones(len(pairs))
     pieces, _ = scipy.sparse.csgraph.connected_components(
         scipy.sparse.coo_array((ones, pairs.T), (n, n)), directed=False
     )
-    away = np.abs(distance(run.params, now.p[pairs].mean(axis=1)))
-    said = (
+    away = np.abs(distance(run.params, form.p[pairs].mean(axis=1)))
+    agrees = (
         number(m[2]) == len(pairs)
         and number(m[3]) == pieces
         and says_size(m[4], 4 * n * (3 + count))
     )
-    return said and near_length(m[5], away.mean(), 2) and near_length(m[6], away.max(), 2)
+    return agrees and near_length(m[5], away.mean(), 2) and near_length(m[6], away.max(), 2)
 
 
 def _bits(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -93,9 +93,9 @@ def _bits(run: Run, k: int, m: re.Match[str]) -> bool:
         int((np.pad(full, 1) != np.roll(np.pad(full, 1), 1, axis)).sum()) for axis in range(3)
     )
     area, volume = sizes(run.params)
-    said = says_size(m[2], n**3 // 8) and number(m[3]) == full.sum() == state.now.values.sum()
+    agrees = says_size(m[2], n**3 // 8) and number(m[3]) == full.sum() == state.now.values.sum()
     return (
-        said
+        agrees
         and says_more(m[4], full.sum() * h**3 / volume)
         and abs(number(m[5]) - walls / area) < 0.0051
     )
@@ -107,12 +107,12 @@ def _middle(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _level(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    assert isinstance(now, Level)
+    form = run.states[k].now
+    assert isinstance(form, Level)
     h = 2 / 2 ** int(m[1])
-    away = np.abs(distance(run.params, -1 + h * (now.cells + 0.5)))
+    away = np.abs(distance(run.params, -1 + h * (form.cells + 0.5)))
     mixed = int((away <= h * np.sqrt(3) / 2).sum())
-    return near_length(m[2], h, 2) and number(m[3]) == mixed and number(m[4]) == len(now.cells)
+    return near_length(m[2], h, 2) and number(m[3]) == mixed and number(m[4]) == len(form.cells)
 
 
 def _bytes(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -126,16 +126,16 @@ def _bytes(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _built(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    tree = now.tree
+    form = run.states[k].now
+    tree = form.tree
     cells = [
         c
         for c in range(len(tree.axis))
-        if tree.depth[c] == now.depth or (tree.depth[c] < now.depth and tree.axis[c] < 0)
+        if tree.depth[c] == form.depth or (tree.depth[c] < form.depth and tree.axis[c] < 0)
     ]
     spans = [int(tree.last[c] - tree.first[c]) for c in cells]
     return (
-        number(m[1]) == now.depth
+        number(m[1]) == form.depth
         and number(m[2]) == len(cells)
         and number(m[3]) == max(spans)
         and sum(spans) == len(tree.p)
@@ -143,33 +143,38 @@ def _built(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _searched(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    cells = [visit.cell for visit in now.visits]
-    rows = np.concatenate([np.arange(now.tree.first[c], now.tree.last[c]) for c in cells])
-    nearest = np.linalg.norm(now.tree.p[rows] - now.query, axis=1).min()
-    said = (
-        number(m[1]) == len(cells) and number(m[2]) == len(rows) and number(m[3]) == len(now.tree.p)
+    search = run.states[k].now
+    cells = [visit.cell for visit in search.visits]
+    rows = np.concatenate([np.arange(search.tree.first[c], search.tree.last[c]) for c in cells])
+    nearest = np.linalg.norm(search.tree.p[rows] - search.query, axis=1).min()
+    agrees = (
+        number(m[1]) == len(cells)
+        and number(m[2]) == len(rows)
+        and number(m[3]) == len(search.tree.p)
     )
     return (
-        said and says_percent(m[4], len(rows) / len(now.tree.p)) and near_length(m[5], nearest, 2)
+        agrees
+        and says_percent(m[4], len(rows) / len(search.tree.p))
+        and near_length(m[5], nearest, 2)
     )
 
 
 def _passed(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    tree = now.tree
-    visit = now.visits[-1]
+    search = run.states[k].now
+    tree = search.tree
+    visit = search.visits[-1]
     away = [
-        np.linalg.norm(tree.p[tree.first[c] : tree.last[c]] - now.query, axis=1).min()
+        np.linalg.norm(tree.p[tree.first[c] : tree.last[c]] - search.query, axis=1).min()
         for c in visit.passed
     ]
     return number(m[1]) == len(away) and min(away) >= visit.distance
 
 
 def _done(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
+    search = run.states[k].now
     return (
-        abs(np.linalg.norm(now.tree.p - now.query, axis=1).min() - now.visits[-1].distance) < 1e-9
+        abs(np.linalg.norm(search.tree.p - search.query, axis=1).min() - search.visits[-1].distance)
+        < 1e-9
     )
 
 
@@ -177,11 +182,11 @@ def _growth(run: Run, k: int, m: re.Match[str]) -> bool:
     growth = run.states[k].growth
     looked = dict(zip(growth.counts.tolist(), growth.looked, strict=True))
     shares = dict(zip(growth.dimensions.tolist(), growth.shares, strict=True))
-    said = (
+    agrees = (
         abs(number(m[1]) - looked[number(m[2])]) < 0.51
         and abs(number(m[3]) - looked[number(m[4])]) < 0.51
     )
-    return said and all(says_percent(m[j], shares[d]) for j, d in ((5, 3), (6, 10), (7, 20)))
+    return agrees and all(says_percent(m[j], shares[d]) for j, d in ((5, 3), (6, 10), (7, 20)))
 
 
 def _control_points(run: Run, k: int, m: re.Match[str]) -> bool:

@@ -30,8 +30,8 @@ def of(params: Any, angles: Any, order: str | None = None) -> Rotation:
     return Rotation.from_euler(order or params.order, angles, degrees=True)
 
 
-def degrees(one: Rotation, other: Rotation) -> float:
-    return float(np.degrees((other * one.inv()).magnitude()))
+def degrees(rotation: Rotation, other: Rotation) -> float:
+    return float(np.degrees((other * rotation.inv()).magnitude()))
 
 
 def axles(params: Any, pitch: float) -> np.ndarray:
@@ -39,13 +39,13 @@ def axles(params: Any, pitch: float) -> np.ndarray:
     first, _, third = params.angles
     tiny = 1e-5
     here = np.array([first, pitch, third], float)
-    found = []
+    axes = []
     for k in range(3):
         more = here + np.degrees(tiny) * np.eye(3)[k]
         less = here - np.degrees(tiny) * np.eye(3)[k]
         w = (of(params, more) * of(params, less).inv()).as_rotvec()
-        found.append(w / np.linalg.norm(w))
-    return np.array(found)
+        axes.append(w / np.linalg.norm(w))
+    return np.array(axes)
 
 
 def lines_apart(run: Run, k: int) -> float:
@@ -73,8 +73,8 @@ def nearest(T: np.ndarray) -> Rotation:
 
 @functools.lru_cache(maxsize=4)
 def every_turn(run: Run) -> np.ndarray:
-    found = [nearest(state.T_world_body) for state in run.states]
-    return np.array([degrees(a, b) for a, b in itertools.pairwise(found)])
+    rotations = [nearest(state.T_world_body) for state in run.states]
+    return np.array([degrees(a, b) for a, b in itertools.pairwise(rotations)])
 
 
 def turned(run: Run, k: int = -1) -> float:
@@ -96,10 +96,10 @@ def at_best(run: Run, k: int) -> np.ndarray:
 
 
 def off(run: Run, k: int) -> float:
-    now = run.states[k]
+    state = run.states[k]
     if run.params.stage == "readings":
-        return degrees(of(run.params, run.params.angles), Rotation.from_matrix(now.R))
-    return degrees(nearest(at_best(run, k)), nearest(now.T_world_body))
+        return degrees(of(run.params, run.params.angles), Rotation.from_matrix(state.R))
+    return degrees(nearest(at_best(run, k)), nearest(state.T_world_body))
 
 
 def volumes(run: Run) -> np.ndarray:

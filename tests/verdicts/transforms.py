@@ -108,11 +108,11 @@ def edges(run: Run) -> np.ndarray:
 
 def corner_angles(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     a, b, c = p[faces].transpose(1, 0, 2)
-    found = [
+    angles = [
         [degrees(v, w) for v, w in zip(*pair, strict=True)]
         for pair in ((b - a, c - a), (c - b, a - b), (a - c, b - c))
     ]
-    return np.array(found)
+    return np.array(angles)
 
 
 def bent(run: Run, k: int) -> float:
@@ -145,8 +145,8 @@ def apart(run: Run, k: int) -> float:
         return unparallel(run, product(run, k - 1), product(run, k))
     if run.params.stage == "divide":
         return upright_apart(run, k)
-    one, other = hand(run, k)
-    return float(np.linalg.norm(one[:3, 3] - other[:3, 3]))
+    first, other = hand(run, k)
+    return float(np.linalg.norm(first[:3, 3] - other[:3, 3]))
 
 
 def moved(run: Run, k: int) -> float:
@@ -220,19 +220,19 @@ VALUES = {
 def right(run: Run, k: int) -> bool | None:
     """Judged are a wrong undoing, a direction that was shifted, and a plain return."""
     params = run.params
-    now = run.states[k]
+    state = run.states[k]
     if not built(run):
-        if params.stage == "undo" and np.abs(now.T - np.eye(4)).max() > SAME:
+        if params.stage == "undo" and np.abs(state.T - np.eye(4)).max() > SAME:
             return False
         return None
-    if now.factor.kind == "undo":
-        if farthest(now.T, shape_of(params), vertices(run)) > SAME:
+    if state.factor.kind == "undo":
+        if farthest(state.T, shape_of(params), vertices(run)) > SAME:
             return False
         if params.compare in ("undo by (Rᵀ, −t)", "undo all as if rigid"):
             return False if off(run, k) > SAME else None
-        is_start = farthest(now.T, np.eye(4), vertices(run)) < SAME
+        is_start = farthest(state.T, np.eye(4), vertices(run)) < SAME
         return True if is_start and params.compare == "nothing" else None
-    if now.complete and params.compare == "direction with w = 1":
+    if state.complete and params.compare == "direction with w = 1":
         shift = (motion_of(params) @ shape_of(params))[:3, 3]
         return False if np.linalg.norm(shift) > SAME else None
     return None

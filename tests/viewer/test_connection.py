@@ -40,14 +40,14 @@ class Talk:
     def say(self, **message) -> None:
         self.student.hear(json.dumps(message))
 
-    async def until(self, what) -> dict:
+    async def until(self, wanted) -> dict:
         """Wait for the first message that is wanted."""
         async with asyncio.timeout(60):  # nothing else wakes the loop
-            while not (found := [message for message in self.told if what(message)]):
+            while not (matching := [message for message in self.told if wanted(message)]):
                 assert not self._work.done(), self._work
                 self._heard.clear()
                 await self._heard.wait()
-        return found[0]
+        return matching[0]
 
     async def at_rest(self) -> None:
         await self.until(lambda message: message["tell"] == "run" and message["finished"])

@@ -58,9 +58,9 @@ def test_a_live_student_s_file_ends_with_the_server(tmp_path, how):
 
     with running("show", "transforms", "--with", str(file), "--port", "0") as (process, address):
         pids = run_apart(visit(address))
-        _, said = process.communicate(timeout=300)
-        assert (process.returncode, said) == (
-            (0, "") if how == signal.SIGTERM else (-signal.SIGKILL, said)
+        _, errors = process.communicate(timeout=300)
+        assert (process.returncode, errors) == (
+            (0, "") if how == signal.SIGTERM else (-signal.SIGKILL, errors)
         )
         until(lambda: not there(pids))
         assert not family(process.pid)
@@ -86,5 +86,5 @@ def test_a_lesson_that_blocks_for_ever_does_not_keep_ctrl_c_from_ending_a_server
 
     with running("show", str(tmp_path / "blocks.py"), "--port", "0") as (process, address):
         run_apart(visit(address))
-        out, said = process.communicate(timeout=20)
-        assert (process.returncode, out, said) == (0, "", "")
+        out, errors = process.communicate(timeout=20)
+        assert (process.returncode, out, errors) == (0, "", "")

@@ -58,11 +58,11 @@ class Page:
     def say(self, **message) -> None:
         self.socket.send(json.dumps(message))
 
-    def until(self, what) -> dict:
+    def until(self, wanted) -> dict:
         while True:
             part = self.socket.recv(timeout=300)
             told = {} if isinstance(part, bytes) else json.loads(part)  # a scene comes as bytes
-            if told and what(told):
+            if told and wanted(told):
                 return told
 
     def give(
@@ -83,12 +83,12 @@ class Page:
 
 @contextlib.contextmanager
 def opened(server: Server, query: str = "") -> Iterator[Page]:
-    found = httpx.get(f"{server.address}/{query}", follow_redirects=True)
-    token = re.findall('data-token="(.*?)"', found.text)[0]
+    answer = httpx.get(f"{server.address}/{query}", follow_redirects=True)
+    token = re.findall('data-token="(.*?)"', answer.text)[0]
     address = f"ws://127.0.0.1:{server.port}/live?token={token}"
     with connect(address, origin=server.address) as socket:  # type: ignore[arg-type]
         page = Page(server, socket, token)
-        page.say(verb="open", query="?" + found.url.query.decode(), lesson="fake")
+        page.say(verb="open", query="?" + answer.url.query.decode(), lesson="fake")
         page.until(lambda told: told["tell"] == "run" and told["finished"])
         yield page
 

@@ -50,11 +50,11 @@ for command in sys.stdin:
 def test_a_server_asks_for_the_files_of_a_large_class_and_never_for_fewer_than_it_has(
     monkeypatch, limits, asked
 ):
-    found = []
+    requests = []
     monkeypatch.setattr(resource, "getrlimit", lambda which: limits)
-    monkeypatch.setattr(resource, "setrlimit", lambda which, wanted: found.append(wanted))
+    monkeypatch.setattr(resource, "setrlimit", lambda which, wanted: requests.append(wanted))
     patience.more_files()
-    assert found == asked
+    assert requests == asked
 
 
 def test_where_it_may_have_no_more_it_goes_on(monkeypatch):
@@ -98,8 +98,8 @@ def test_at_the_limit_of_open_files_it_says_a_line_a_second_and_open_pages_go_on
             while time.monotonic() - began < 2.2:
                 await goes_on(page)
             assert len(os.listdir(f"/proc/{process.pid}/fd")) >= most - 2, "it is full"
-            for one in quiet:
-                one.close()
+            for connection in quiet:
+                connection.close()
             may_open("many")
             async with httpx.AsyncClient(timeout=60, trust_env=False) as browser:
                 assert (await browser.get(f"{address}/?lesson=fake")).status_code == 200
@@ -109,8 +109,8 @@ def test_at_the_limit_of_open_files_it_says_a_line_a_second_and_open_pages_go_on
             run_apart(visit())
         finally:
             process.kill()
-            said = complaints.read().decode().splitlines()
-        assert 1 <= len(said) <= 6, "\n".join(said)
+            lines = complaints.read().decode().splitlines()
+        assert 1 <= len(lines) <= 6, "\n".join(lines)
         assert all(
-            line.startswith("workbench: ") and "Too many open files" in line for line in said
-        ), said
+            line.startswith("workbench: ") and "Too many open files" in line for line in lines
+        ), lines

@@ -132,14 +132,18 @@ def test_behind_a_prefix_every_address_of_a_page_leads_somewhere(site):
         assert (status, headers["location"]) == (301, "workbench/?lesson=icp&step=3")
         status, _, page = await asked(site, "/workbench/?lesson=icp")
         assert status == 200
-        found = [
-            one for one in re.findall(r'(?:src|href)="([^"]+)"', page) if not urlsplit(one).scheme
+        addresses = [
+            address
+            for address in re.findall(r'(?:src|href)="([^"]+)"', page)
+            if not urlsplit(address).scheme
         ]
-        files = {one.replace("&amp;", "&") for one in found if not one.startswith("#")}
+        files = {
+            address.replace("&amp;", "&") for address in addresses if not address.startswith("#")
+        }
         assert {"page/story-page.css", "page/live-story.js"} <= files
-        for one in files:
-            assert not one.startswith("/")
-            assert (await asked(site, f"/workbench/{one}"))[0] == 200, one
+        for address in files:
+            assert not address.startswith("/")
+            assert (await asked(site, f"/workbench/{address}"))[0] == 200, address
         assert (await asked(site, "/workbench/scene/"))[0] == 200
 
     run_apart(visit())
@@ -214,13 +218,17 @@ def test_behind_jupyter_a_page_runs_takes_a_file_and_gives_its_recording(jupyter
                 assert sent.status_code == 204, sent.text
             await page.until(lambda page: {"source", "target"} <= set(page.run["files"]))
             document = (await browser.get("?lesson=icp")).text
-            found = [
-                one
-                for one in re.findall(r'(?:src|href)="([^"]+)"', document)
-                if not urlsplit(one).scheme
+            addresses = [
+                address
+                for address in re.findall(r'(?:src|href)="([^"]+)"', document)
+                if not urlsplit(address).scheme
             ]
-            for one in {one.replace("&amp;", "&") for one in found if not one.startswith("#")}:
-                assert (await browser.get(one)).status_code == 200, one
+            for address in {
+                address.replace("&amp;", "&")
+                for address in addresses
+                if not address.startswith("#")
+            }:
+                assert (await browser.get(address)).status_code == 200, address
             assert (await browser.get("scene/")).status_code == 200
         await page.close()
 
@@ -243,8 +251,8 @@ def test_behind_a_proxy_another_name_is_still_refused(site):
 def test_before_several_servers_a_page_and_its_scene_meet(tmp_path):
     servers = [Server(behind=NAME) for _ in range(2)]
     http = (RECIPES / "nginx-several.conf").read_text()
-    for number, one in zip((8080, 8081), servers, strict=True):
-        http = http.replace(f"127.0.0.1:{number}", f"127.0.0.1:{one.port}")
+    for number, server in zip((8080, 8081), servers, strict=True):
+        http = http.replace(f"127.0.0.1:{number}", f"127.0.0.1:{server.port}")
     location = (RECIPES / "nginx.conf").read_text().replace("127.0.0.1:8080", "workbench")
 
     async def visit(port: int) -> list[int]:
@@ -255,7 +263,7 @@ def test_before_several_servers_a_page_and_its_scene_meet(tmp_path):
             await page.until(
                 lambda page: page.step and page.scene_bytes > 1000
             )  # a scene that nobody met is empty
-        shares = [len(one.students) for one in servers]
+        shares = [len(server.students) for server in servers]
         await asyncio.gather(*(page.close() for page in pages))
         return shares
 
@@ -263,8 +271,8 @@ def test_before_several_servers_a_page_and_its_scene_meet(tmp_path):
         with nginx(tmp_path, http, location) as port:
             shares = run_apart(visit(port))
     finally:
-        for one in servers:
-            one.stop()
+        for server in servers:
+            server.stop()
     assert sum(shares) == 12
     assert min(shares) > 0
 

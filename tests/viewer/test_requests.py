@@ -13,10 +13,10 @@ from workbench.viewer.requests import MOST_BRACKETS, Requests, read_request
 
 
 def waiting(*requests):
-    found = Requests()
+    queue = Requests()
     for request in requests:
-        found.add(request)
-    return [request["verb"] for request in found.take()]
+        queue.add(request)
+    return [request["verb"] for request in queue.take()]
 
 
 def test_a_run_that_is_asked_for_at_once_does_not_lose_the_lesson_that_it_is_of():

@@ -64,7 +64,7 @@ def steered() -> Steered:
 
 
 @pytest.fixture
-def one(monkeypatch) -> Iterator[Scheduler]:
+def lone(monkeypatch) -> Iterator[Scheduler]:
     """A scheduler with one thread, and slices of one step."""
     monkeypatch.setattr(scheduling, "SLICE", 0.0)
     monkeypatch.setattr(scheduling, "REST", 0.05)
@@ -84,24 +84,24 @@ def nobody() -> None:
     pass
 
 
-def test_the_step_that_somebody_waits_for_comes_before_everybody_s_rest(one, steered):
+def test_the_step_that_somebody_waits_for_comes_before_everybody_s_rest(lone, steered):
     rest = [steered.run_of(number) for number in range(5)]
     for number, run in enumerate(rest):
-        one.want(f"reader {number}", run, 0, tell=nobody)
+        lone.want(f"reader {number}", run, 0, tell=nobody)
     steered.may.release(5 + 5 * scheduling.AHEAD + 3)
     until(lambda: len(steered.made) == 5 + 5 * scheduling.AHEAD + 3)
     before = len(steered.made)
     told = threading.Event()
-    one.want("me", steered.run_of(100), 3, tell=told.set)
+    lone.want("me", steered.run_of(100), 3, tell=told.set)
     steered.may.release(5)
     assert told.wait(60)
     assert steered.made[before:][:5].count(100) == 4, "one step of another's rest was being made"
     steered.may.release(10_000)
 
 
-@pytest.mark.parametrize("what", ["another run", "something else"])
+@pytest.mark.parametrize("newcomer", ["another run", "something else"])
 def test_a_slice_of_everybody_s_rest_ends_with_the_step_in_which_somebody_comes(
-    steered, what, monkeypatch
+    steered, newcomer, monkeypatch
 ):
     monkeypatch.setattr(scheduling, "SLICE", 60.0)
     busy = threading.Event()
@@ -111,14 +111,14 @@ def test_a_slice_of_everybody_s_rest_ends_with_the_step_in_which_somebody_comes(
         scheduler.want("reader", resting, 0, tell=nobody)
         steered.may.release(3)
         until(lambda: len(resting) == 3)  # the fourth is being made, in a slice at rest
-        if what == "another run":
+        if newcomer == "another run":
             scheduler.want("me", steered.run_of(2), 0, tell=nobody)
         else:
             busy.set()
         steered.may.release(1)
         until(lambda: len(resting) == 4)
         steered.may.release(1)
-        if what == "another run":
+        if newcomer == "another run":
             until(lambda: len(steered.made) == 5)
             assert steered.made == [1, 1, 1, 1, 2]
         else:
@@ -130,11 +130,11 @@ def test_a_slice_of_everybody_s_rest_ends_with_the_step_in_which_somebody_comes(
         scheduler.close()
 
 
-def test_who_asks_a_lot_delays_only_themselves(one, steered):
-    one.want("greedy", steered.run_of(1), -1, tell=nobody)
-    until(lambda: len(one) == 1)
+def test_who_asks_a_lot_delays_only_themselves(lone, steered):
+    lone.want("greedy", steered.run_of(1), -1, tell=nobody)
+    until(lambda: len(lone) == 1)
     for number in range(2, 6):
-        one.want(number, steered.run_of(number), 9, tell=nobody)
+        lone.want(number, steered.run_of(number), 9, tell=nobody)
     steered.may.release(50)
     until(lambda: len(steered.made) >= 50)
     counts = [steered.made[:50].count(number) for number in range(1, 6)]
@@ -142,29 +142,29 @@ def test_who_asks_a_lot_delays_only_themselves(one, steered):
     steered.may.release(10_000)
 
 
-def test_a_run_that_nobody_looks_at_is_given_up(one, steered):
+def test_a_run_that_nobody_looks_at_is_given_up(lone, steered):
     run = steered.run_of(1)
-    one.want("me", run, 0, tell=nobody)
+    lone.want("me", run, 0, tell=nobody)
     steered.may.release(3)
     until(lambda: len(steered.made) == 3)
-    one.leave("me")
-    assert len(one) == 0
+    lone.leave("me")
+    assert len(lone) == 0
     steered.may.release(100)
     time.sleep(0.2)
     assert len(run) <= 4, "the step that was being made"
 
 
-def test_at_rest_a_run_is_computed_to_its_end_and_all_who_look_are_told(one, steered):
+def test_at_rest_a_run_is_computed_to_its_end_and_all_who_look_are_told(lone, steered):
     steered.may.release(10_000)
     run = steered.run_of(1, 40)
     told = [threading.Event() for _ in range(3)]
-    for who, event in enumerate(told):
-        one.want(who, run, 0, tell=event.set)
+    for reader, event in enumerate(told):
+        lone.want(reader, run, 0, tell=event.set)
     until(lambda: run.finished)
     assert all(event.wait(60) for event in told)
     assert steered.made == [1] * 40, "each step is made once for all"
-    assert not one.want("late", run, 3, tell=nobody)
-    until(lambda: len(one) == 0)
+    assert not lone.want("late", run, 3, tell=nobody)
+    until(lambda: len(lone) == 0)
 
 
 def test_while_people_wait_for_something_else_only_what_is_waited_for_is_computed(steered):
@@ -187,11 +187,11 @@ def test_while_people_wait_for_something_else_only_what_is_waited_for_is_compute
         scheduler.close()
 
 
-@pytest.mark.parametrize("what", ["showing", "opening"])
-def test_while_pictures_of_other_runs_wait_a_step_is_shown_and_nothing_is_computed_at_rest(what):
+@pytest.mark.parametrize("name", ["showing", "opening"])
+def test_while_pictures_of_other_runs_wait_a_step_is_shown_and_nothing_is_computed_at_rest(name):
     runs = SharedRuns(threads=1)
     held = threading.Event()
-    crew = getattr(runs, what)
+    crew = getattr(runs, name)
 
     async def asked() -> None:
         expensive = [asyncio.create_task(crew.do(held.wait, 60)) for _ in range(9)]
@@ -209,7 +209,7 @@ def test_while_pictures_of_other_runs_wait_a_step_is_shown_and_nothing_is_comput
         runs.close()
 
 
-def test_a_lesson_that_ends_the_program_ends_its_own_run(one, steered):
+def test_a_lesson_that_ends_the_program_ends_its_own_run(lone, steered):
     def leaving(params: Params) -> Iterator[int]:
         yield 1
         raise KeyboardInterrupt if params.number else SystemExit
@@ -217,23 +217,23 @@ def test_a_lesson_that_ends_the_program_ends_its_own_run(one, steered):
     lesson = replace(steered.lesson, run=leaving)
     for number in (0, 1):
         run = Timeline(lesson, Params(number))
-        one.want("me", run, -1, tell=nobody)
+        lone.want("me", run, -1, tell=nobody)
         until(lambda run=run: run.finished)
         assert ("KeyboardInterrupt" if number else "SystemExit") in (run.stopped or "")
     steered.may.release(10)
     run = steered.run_of(7, 5)
-    one.want("me", run, -1, tell=nobody)
+    lone.want("me", run, -1, tell=nobody)
     until(lambda: run.finished)
 
 
-def test_a_step_that_holds_a_thread_up_is_worked_around(one, steered, monkeypatch):
+def test_a_step_that_holds_a_thread_up_is_worked_around(lone, steered, monkeypatch):
     monkeypatch.setattr(scheduling, "STUCK", 0.05)
     stuck = steered.run_of(1)
-    one.want("unlucky", stuck, 0, tell=nobody)
+    lone.want("unlucky", stuck, 0, tell=nobody)
     time.sleep(0.1)
     other = Timeline(fake.lesson, fake.Params())
-    one.want("me", other, -1, tell=nobody)
-    until(lambda: one.relieve() or other.finished)
+    lone.want("me", other, -1, tell=nobody)
+    until(lambda: lone.relieve() or other.finished)
     steered.may.release(10_000)
 
 

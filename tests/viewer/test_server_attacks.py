@@ -47,7 +47,7 @@ def test_silent_sockets_delay_nobody_and_are_closed_after_a_while(server, monkey
         quiet = [await page.socket(f"live?token={k:024x}") for k in range(300)]
         await goes_on(page)
         async with asyncio.timeout(300):
-            await asyncio.gather(*(one.wait_closed() for one in quiet))
+            await asyncio.gather(*(connection.wait_closed() for connection in quiet))
 
     meanwhile(server, attack)
 
@@ -60,12 +60,12 @@ def test_connections_that_say_nothing_are_closed(monkeypatch):
         quiet = [
             socket.create_connection(("127.0.0.1", server.port), timeout=30) for _ in range(20)
         ]
-        for one in quiet[10:]:
-            one.sendall(b"GET / HTTP/1.1\r\nHost: 127.0")
-        for one in quiet:
+        for connection in quiet[10:]:
+            connection.sendall(b"GET / HTTP/1.1\r\nHost: 127.0")
+        for connection in quiet:
             with contextlib.suppress(ConnectionResetError):
-                assert one.recv(1) == b""
-            one.close()
+                assert connection.recv(1) == b""
+            connection.close()
     finally:
         server.stop()
 
@@ -94,8 +94,8 @@ def test_a_page_that_takes_nothing_is_sent_the_latest_when_it_takes_again():
         assert len(student._requests) <= 12
         assert len(took) == 1
         takes.set()
-        await until(lambda: any(one.get("k") == 4999 % 6 for one in took))
-        assert [one["params"]["angle"] for one in took if one["tell"] == "run"][-1] == 49.99
+        await until(lambda: any(told.get("k") == 4999 % 6 for told in took))
+        assert [told["params"]["angle"] for told in took if told["tell"] == "run"][-1] == 49.99
         assert len(took) < 20
         working.cancel()
         runs.close()
@@ -118,7 +118,13 @@ def test_a_connection_that_takes_nothing_is_closed_after_a_while(monkeypatch):
         while connections:
             assert time.monotonic() < deadline, "it is still open"
             most = max(
-                [most, *(one.transport.get_write_buffer_size() for one in tuple(connections))]
+                [
+                    most,
+                    *(
+                        connection.transport.get_write_buffer_size()
+                        for connection in tuple(connections)
+                    ),
+                ]
             )
             time.sleep(0.01)
         assert most < 4e6, "no more waits than one answer"
@@ -141,7 +147,12 @@ def test_a_scene_that_is_not_taken_is_not_buffered_without_bound(server):
                 await slow.say(verb="seek", k=k)
             await goes_on(page)
             connections = server._uvicorn.server_state.connections
-            waiting.append(max(one.transport.get_write_buffer_size() for one in tuple(connections)))
+            waiting.append(
+                max(
+                    connection.transport.get_write_buffer_size()
+                    for connection in tuple(connections)
+                )
+            )
         assert max(waiting) < 4e6, "no more waits than a few steps"
         assert len(student._requests) <= 3
         await slow.close()
@@ -216,8 +227,8 @@ def test_garbage_in_every_wish_is_ignored(server, verb, capfd):
         await bad.close()
 
     meanwhile(server, attack)
-    said = capfd.readouterr().err
-    assert "could not be fulfilled" not in said, said
+    errors = capfd.readouterr().err
+    assert "could not be fulfilled" not in errors, errors
 
 
 def test_a_click_is_three_numbers_and_three_numbers_or_nothing():
@@ -306,8 +317,8 @@ def test_large_frames_close_only_the_socket_they_came_from(server):
 def test_reloading_browsers_leave_nothing(server):
     async def attack(page: FakePage) -> None:
         async def reload() -> None:
-            one = await FakePage(f"{server.address}/", HERE).open(read=False)
-            one.live.transport.abort()
+            browser = await FakePage(f"{server.address}/", HERE).open(read=False)
+            browser.live.transport.abort()
 
         await asyncio.gather(*(reload() for _ in range(30)))
 
@@ -320,7 +331,7 @@ def test_when_all_have_gone_threads_and_runs_are_back():
     students: list[weakref.ref] = []
 
     async def attack(page: FakePage) -> None:
-        students.extend(weakref.ref(one) for one in server.students.values())
+        students.extend(weakref.ref(student) for student in server.students.values())
         for angle in (10, 20, 30):
             await page.say(verb="change", values={"angle": angle})
             await page.until(
@@ -333,12 +344,12 @@ def test_when_all_have_gone_threads_and_runs_are_back():
     meanwhile(server, attack)
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline and (
-        any(one() for one in students) or server.runs.timelines.alive()
+        any(ref() for ref in students) or server.runs.timelines.alive()
     ):
         server.runs.make_room([], [])
         gc.collect()
         time.sleep(0.05)
-    assert not any(one() for one in students)
+    assert not any(ref() for ref in students)
     assert not server.runs.timelines.alive()
     server.stop()
     while time.monotonic() < deadline and threading.active_count() > before:

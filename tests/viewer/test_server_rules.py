@@ -122,8 +122,8 @@ def test_the_token_lets_in_and_is_kept_in_a_cookie(public):
     token = public.rules.token
     assert token is not None
     assert len(token) >= 16
-    status, _, said = get(public)
-    assert (status, token in said) == (403, False)
+    status, _, body = get(public)
+    assert (status, token in body) == (403, False)
     for path in (
         "/",
         "/page/story-page.css",
@@ -142,8 +142,8 @@ def test_the_token_lets_in_and_is_kept_in_a_cookie(public):
         "the browser's own default is right behind any prefix"
     )
     cookie = headers["set-cookie"].split(";")[0]
-    status, _, said = get(public, "/?lesson=icp", Cookie=cookie)
-    assert (status, token in said) == (200, False)
+    status, _, body = get(public, "/?lesson=icp", Cookie=cookie)
+    assert (status, token in body) == (200, False)
     for path in SOCKETS:
         assert enters(public, path, Cookie=cookie)
         assert not enters(public, path)
@@ -195,9 +195,9 @@ def test_answers_say_what_keeps_a_browser_safe(local):
         assert "frame-ancestors 'self'" in headers["content-security-policy"]
         assert "default-src 'none'" in headers["content-security-policy"]
         assert "server" not in headers
-    _, headers, said = get(local, "/?lesson=icp")
+    _, headers, body = get(local, "/?lesson=icp")
     nonce = headers["content-security-policy"].partition("'nonce-")[2].partition("'")[0]
-    assert said.count("<script") == said.count(f'<script nonce="{nonce}"') > 3
+    assert body.count("<script") == body.count(f'<script nonce="{nonce}"') > 3
     assert get(local)[1]["content-security-policy"] != headers["content-security-policy"]
     assert (
         "unsafe"

@@ -56,8 +56,8 @@ def test_the_course_is_served_at_the_address_that_is_printed_until_interrupted()
             " --port (0 picks a free one)\n"
         )
         process.send_signal(signal.SIGINT)
-        out, said = process.communicate(timeout=300)
-        assert (process.returncode, out, said) == (0, "", "")
+        out, errors = process.communicate(timeout=300)
+        assert (process.returncode, out, errors) == (0, "", "")
 
 
 def test_a_lesson_opens_at_its_params_and_step_and_the_course_is_one_link_away(tmp_path):

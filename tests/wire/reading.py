@@ -48,7 +48,7 @@ class Reader:
 
     def _filled(self, value: Any) -> Any:
         if isinstance(value, list):
-            return [self._filled(one) for one in value]
+            return [self._filled(item) for item in value]
         if isinstance(value, dict):
             return np.frombuffer(self.arrays[value["$"]], value["as"])
         return value

@@ -70,12 +70,12 @@ def world(p: np.ndarray, pose: Any) -> np.ndarray:
 @pytest.mark.parametrize("k", range(len(KINDS)))
 def test_equal_content_has_an_equal_key_and_other_content_another(k):
     copy = {path: replace(primitive) for path, primitive in KINDS[k].items()}  # type: ignore[type-var]
-    one = shown(KINDS[k])
+    original = shown(KINDS[k])
     other = shown(copy)
-    assert {name: (kind.key, pose) for name, (kind, pose) in one.items()} == {
+    assert {name: (kind.key, pose) for name, (kind, pose) in original.items()} == {
         name: (kind.key, pose) for name, (kind, pose) in other.items()
     }
-    for kind, _ in one.values():
+    for kind, _ in original.values():
         assert json.loads(kind.text).keys() <= {"type", "props", "fade", "visible"}
         assert len({array.key for array in kind.arrays}) == len(
             {array.data for array in kind.arrays}
@@ -96,9 +96,9 @@ def test_every_kind_says_how_opaque_it_is_and_is_drawn_in_full_colours():
             opacity = primitive.opacity  # type: ignore[union-attr]
             full = shown({path: replace(primitive, opacity=1.0)})  # type: ignore[type-var]
             for name, (kind, _) in shown(scene).items():
-                said = json.loads(kind.text)
-                assert said.pop("fade", 1) == opacity
-                assert said == json.loads(full[name][0].text), (
+                content = json.loads(kind.text)
+                assert content.pop("fade", 1) == opacity
+                assert content == json.loads(full[name][0].text), (
                     "the page mixes colours, and nobody before it"
                 )
 
@@ -150,8 +150,8 @@ def test_points_stand_where_their_motion_puts_them_rigid_or_not(T):
         ("mesh", "vertices", p),
     ):
         node = nodes[SCENE + name]
-        found = world(node["props"][key].reshape(-1, 3), node["pose"])
-        np.testing.assert_allclose(found, wanted @ M[:3, :3].T + M[:3, 3], atol=1e-5)
+        p_world = world(node["props"][key].reshape(-1, 3), node["pose"])
+        np.testing.assert_allclose(p_world, wanted @ M[:3, :3].T + M[:3, 3], atol=1e-5)
     np.testing.assert_allclose(
         nodes[SCENE + "word"]["pose"], (1, 0, 0, 0, *(M[:3, :3] @ p[0] + M[:3, 3]))
     )
@@ -174,8 +174,8 @@ def test_half_turns_have_one_too():
     for axis in RNG.normal(size=(200, 3)):
         for angle in (np.pi, np.pi - 1e-9, np.pi + 1e-9, 1e-9):
             R = Rotation.from_rotvec(angle * axis / np.linalg.norm(axis)).as_matrix()
-            found = Rotation.from_quat(wxyz_of(R), scalar_first=True).as_matrix()
-            np.testing.assert_allclose(found, R, atol=1e-9)
+            R_back = Rotation.from_quat(wxyz_of(R), scalar_first=True).as_matrix()
+            np.testing.assert_allclose(R_back, R, atol=1e-9)
 
 
 def test_a_coloured_mesh_is_matt_and_has_its_own_colours():
@@ -213,7 +213,9 @@ def test_no_segments_and_no_points_are_no_node_and_what_stands_beside_is_none():
     assert shown({"x": Segments(np.zeros((0, 2, 3)))}) == {}
     assert shown({"x": Points(np.zeros((0, 3)))}) == {}
     beside = {
-        path: one for path, one in fake.draw(fake._state(0)).items() if path.startswith("beside/")
+        path: primitive
+        for path, primitive in fake.draw(fake._state(0)).items()
+        if path.startswith("beside/")
     }
     assert beside
     assert shown(beside) == {}
@@ -228,9 +230,9 @@ def test_a_path_below_another_does_not_move_with_it():
     )
     assert len(nodes) == 2
     assert not [
-        (one, other)
-        for one, other in itertools.permutations(nodes, 2)
-        if other.startswith(one + "/")
+        (name, other)
+        for name, other in itertools.permutations(nodes, 2)
+        if other.startswith(name + "/")
     ]
     assert {pose[4:] for _, pose in nodes.values()} == {(5.0, 0.0, 0.0)}
 
@@ -290,7 +292,7 @@ def test_who_asks_at_the_same_time_gets_the_same():
         for s in scenes
     ]
     maker = Maker()
-    found = []
+    results = []
     together = threading.Barrier(8)
 
     def ask(first: int) -> None:
@@ -298,15 +300,15 @@ def test_who_asks_at_the_same_time_gets_the_same():
         for k in range(len(scenes)):
             at = (first + k) % len(scenes)
             nodes = maker.nodes(scenes[at], View())
-            found.append((at, [(name, kind.key, pose) for name, (kind, pose) in nodes.items()]))
+            results.append((at, [(name, kind.key, pose) for name, (kind, pose) in nodes.items()]))
 
     threads = [threading.Thread(target=ask, args=(i,)) for i in range(8)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(found) == 8 * len(scenes)
-    assert all(nodes == alone[at] for at, nodes in found)
+    assert len(results) == 8 * len(scenes)
+    assert all(nodes == alone[at] for at, nodes in results)
     again = [maker.nodes(scene, View()) for scene in scenes]
     assert all(
         maker.nodes(s, View())[name][0] is kind

@@ -57,9 +57,9 @@ def test_a_step_sends_each_kind_and_array_once_and_all_that_it_shows(timeline):
         head = reader.read(wire.step({"k": k}, scene, VIEW))  # which refuses what is sent twice
         alone = Reader()
         wanted = alone.nodes(alone.read(PageWire(Maker()).step({}, scene, VIEW))["nodes"])
-        found = reader.nodes(head["nodes"])
-        assert list(found) == list(wanted)
-        assert alike(found, wanted)
+        nodes = reader.nodes(head["nodes"])
+        assert list(nodes) == list(wanted)
+        assert alike(nodes, wanted)
         assert head["k"] == k
     again = Reader().read(wire.step({}, timeline[2].scene, VIEW))
     assert (again["arrays"], again["kinds"]) == ([], {})
@@ -74,7 +74,10 @@ def test_equal_content_in_other_objects_is_not_sent_again(timeline):
     copy = {path: replace(primitive) for path, primitive in scene.items()}  # type: ignore[type-var]
     head = reader.read(wire.step({}, copy, VIEW))
     assert (head["arrays"], head["kinds"]) == ([], {})
-    keys = [[kind.key for kind, _ in maker.nodes(one, VIEW).values()] for one in (scene, copy)]
+    keys = [
+        [kind.key for kind, _ in maker.nodes(primitives, VIEW).values()]
+        for primitives in (scene, copy)
+    ]
     assert keys[0] == keys[1]
 
 
@@ -86,8 +89,8 @@ def test_a_page_that_holds_much_is_told_to_forget_and_sent_all_again(monkeypatch
     for k in range(12):
         cloud = Points(RNG.uniform(size=(300, 3)))  # 3,600 bytes
         head = reader.read(wire.step({}, {"rest": KINDS[0]["x"], "cloud": cloud}, VIEW))
-        found = reader.nodes(head["nodes"])["/scene/cloud"]["props"]["points"]
-        np.testing.assert_array_equal(found, cloud.p.astype(np.float32).ravel())
+        points = reader.nodes(head["nodes"])["/scene/cloud"]["props"]["points"]
+        np.testing.assert_array_equal(points, cloud.p.astype(np.float32).ravel())
         assert sum(map(len, reader.arrays.values())) < 30_000
         fresh.append(head.get("fresh", False))
         assert fresh[-1] == ("stage" in head), f"step {k}: who forgets forgets the stage too"
@@ -112,7 +115,7 @@ def test_a_stage_is_told_where_the_view_or_the_lesson_is_another():
         (other, "b"),
         (VIEW, "b"),
     ]
-    assert [told(*one) for one in asked] == [True, False, False, True, False, True, True]
+    assert [told(*case) for case in asked] == [True, False, False, True, False, True, True]
     wire.forget()
     assert told(VIEW, "b")
 
@@ -129,14 +132,14 @@ def test_a_run_holds_step_by_step_what_a_live_page_is_sent(timeline):
     for step, listed in zip(timeline.known(), whole["steps"], strict=True):
         head = live.read(live_wire.step({}, step.scene, view))
         shown = {}
-        for one in listed:
-            names_alone += isinstance(one, str)
+        for entry in listed:
+            names_alone += isinstance(entry, str)
             name, node = (
-                (one, before[one])
-                if isinstance(one, str)
-                else (one[0], reader.node(one[1], one[2]))
+                (entry, before[entry])
+                if isinstance(entry, str)
+                else (entry[0], reader.node(entry[1], entry[2]))
             )
-            assert not (isinstance(one, list) and alike(before.get(name), node)), (
+            assert not (isinstance(entry, list) and alike(before.get(name), node)), (
                 f"{name} is as it was, and said again"
             )
             shown[name] = node

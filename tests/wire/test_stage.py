@@ -24,11 +24,11 @@ def stage(view: View) -> tuple[dict[str, Any], dict[str, Any]]:
 @pytest.mark.parametrize("name", list(catalog()))
 def test_a_page_is_told_the_camera_that_a_lesson_states(name):
     view = catalog()[name].view
-    said = json.loads(json.dumps(camera_of(view), allow_nan=False))
-    np.testing.assert_allclose(said["eye"], view.seen_from())
-    np.testing.assert_allclose(said["target"], view.target)
-    np.testing.assert_allclose(said["up"], view.up)
-    assert said["fov"] == pytest.approx(np.radians(view.fov_degrees))
+    camera = json.loads(json.dumps(camera_of(view), allow_nan=False))
+    np.testing.assert_allclose(camera["eye"], view.seen_from())
+    np.testing.assert_allclose(camera["target"], view.target)
+    np.testing.assert_allclose(camera["up"], view.up)
+    assert camera["fov"] == pytest.approx(np.radians(view.fov_degrees))
 
 
 @pytest.mark.parametrize(
@@ -50,7 +50,7 @@ def test_the_grid_lies_across_what_is_up_and_the_scene_is_not_turned(up, plane):
     assert "" not in nodes, (
         "the client would take the camera's place for one in the frame before the turn"
     )
-    assert not [said for said in told["light"] if "Orientation" in said["type"]]
+    assert not [message for message in told["light"] if "Orientation" in message["type"]]
     assert all(node["pose"][:4] == [1, 0, 0, 0] for node in nodes.values())
 
 
@@ -74,9 +74,9 @@ def test_axes_have_names_at_their_ends_and_are_drawn_where_a_view_wants_them():
 def test_no_shadow_is_cast_and_nothing_is_mirrored():
     """They are slow without a graphics card."""
     nodes, told = stage(View())
-    said = {one["type"]: one for one in told["light"]}
-    assert not said["EnableLightsMessage"]["cast_shadow"]
-    assert said["EnvironmentMapMessage"]["hdri_data"] is None
+    lights = {message["type"]: message for message in told["light"]}
+    assert not lights["EnableLightsMessage"]["cast_shadow"]
+    assert lights["EnvironmentMapMessage"]["hdri_data"] is None
     assert not any(node["props"].get("cast_shadow") for node in nodes.values())
 
 
