@@ -33,5 +33,7 @@ def test_what_a_lesson_says_is_true(name):
 
 
 def test_every_lesson_has_a_judge():
-    judges = {file.stem for file in (Path(__file__).parent / "verdicts").glob("[!_]*.py")}
-    assert judges == set(catalog())
+    folder = Path(__file__).parent / "verdicts"
+    modules = {file.stem for file in folder.glob("[!_]*.py")}
+    packages = {file.parent.name for file in folder.glob("*/__init__.py")}
+    assert modules | packages == set(catalog())

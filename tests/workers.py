@@ -15,7 +15,8 @@ RUN_LESSONS = re.compile(
     r"\w+\[(\w+)"
 )
 OF_A_LESSON = re.compile(
-    r"tests/lessons/test_(?!rest\b)(\w+?)(?:_(?:own|slots|drawn|flat|run))?\.py::"
+    r"tests/lessons/test_(?!rest\b)(\w+?)"
+    r"(?:_(?:own|slots|drawn|flat|run|surfaces|stages|presets))?\.py::"
 )
 HOMES_OF_A_LESSON = re.compile(r"(tests/browser/test_matrix\.py::\w+\[\w+)-")
 IN_A_BROWSER = re.compile(r"(tests/(?:browser/\w+|recording/test_browser)\.py)::")

@@ -75,10 +75,10 @@ def test_correlation_is_what_it_says(window):
 
 @settings(max_examples=30, deadline=None)
 @given(
-    st.integers(0, 2**32 - 1),
-    st.sampled_from([1, 3, 5, 7, 9, 15, 21]),
-    st.integers(1, 12),
-    st.integers(1, 12),
+    seed=st.integers(0, 2**32 - 1),
+    window=st.sampled_from([1, 3, 5, 7, 9, 15, 21]),
+    h=st.integers(1, 12),
+    w=st.integers(1, 12),
 )
 def test_box_sums_equal_scipys(seed, window, h, *, w):
     image = np.random.default_rng(seed).integers(0, 256, (h, w)).astype(float)

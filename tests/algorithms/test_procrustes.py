@@ -32,7 +32,13 @@ def steps(p, q, flip: Flip = "least"):
 
 
 @settings(max_examples=40, deadline=None)
-@given(SEEDS, motions(), st.floats(0.2, 5), st.floats(0, 0.3), st.booleans())
+@given(
+    seed=SEEDS,
+    T=motions(),
+    scale=st.floats(0.2, 5),
+    noise=st.floats(0, 0.3),
+    mirrored=st.booleans(),
+)
 def test_the_end_is_the_best_similarity_and_the_step_before_the_best_motion(
     seed, T, scale, *, noise, mirrored
 ):

@@ -58,11 +58,11 @@ def test_a_path_follows_the_recursion(direction, dtype):
 
 @settings(max_examples=30, deadline=None)
 @given(
-    st.integers(0, 10**6),
-    st.tuples(*[st.integers(1, 7)] * 3),
-    st.integers(0, 10),
-    st.integers(0, 60),
-    st.booleans(),
+    seed=st.integers(0, 10**6),
+    shape=st.tuples(*[st.integers(1, 7)] * 3),
+    P1=st.integers(0, 10),
+    more=st.integers(0, 60),
+    whole=st.booleans(),
 )
 def test_the_total_is_the_sum_of_the_steps(seed, shape, P1, *, more, whole):
     cost = volume(seed, shape, np.uint8 if whole else float)

@@ -33,7 +33,12 @@ def log_domain(cost, regularisation, g, *, sweeps):
 
 
 @few
-@given(seeds, st.integers(1, 20), st.integers(1, 20), st.sampled_from([0.003, 0.05, 0.3, 2.0]))
+@given(
+    seed=seeds,
+    n=st.integers(1, 20),
+    m=st.integers(1, 20),
+    regularisation=st.sampled_from([0.003, 0.05, 0.3, 2.0]),
+)
 def test_every_sweep_is_that_of_the_log_domain(seed, n, m, *, regularisation):
     cost = costs(seed, n, m)
     _, g = tight_potentials(cost, np.zeros(m))
@@ -47,7 +52,7 @@ def test_every_sweep_is_that_of_the_log_domain(seed, n, m, *, regularisation):
 
 
 @few
-@given(seeds, st.integers(1, 20), st.integers(1, 20), st.floats(1, 5))
+@given(seed=seeds, n=st.integers(1, 20), m=st.integers(1, 20), blur=st.floats(1, 5))
 def test_the_plan_does_not_depend_on_the_start(seed, n, m, *, blur):
     # with as much blur as the largest cost a sweep shrinks Hilbert's distance of two scalings by
     # tanh(1/2)^2, below 1/4: Peyre and Cuturi 2019, theorem 4.1
@@ -61,7 +66,12 @@ def test_the_plan_does_not_depend_on_the_start(seed, n, m, *, blur):
 
 
 @few
-@given(seeds, st.integers(1, 20), st.integers(1, 20), st.sampled_from([3, 30, 10_000]))
+@given(
+    seed=seeds,
+    n=st.integers(1, 20),
+    m=st.integers(1, 20),
+    max_sweeps=st.sampled_from([3, 30, 10_000]),
+)
 def test_sums_are_as_right_as_it_says_and_the_cost_is_above_the_optimum(seed, n, m, *, max_sweeps):
     rng = np.random.default_rng(seed)
     p_a = rng.normal(size=(n, 3))

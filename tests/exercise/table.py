@@ -101,20 +101,21 @@ def graded(exercise: Exercise) -> Iterator[Graded]:
 
 
 def graded_strangers() -> Iterator[Graded]:
-    """Yield what became of each answer in `strangers.py`: right ones by people who did not see the
+    """Yield what became of each answer in `strangers/`: right ones by people who did not see the
     checks.
     """
-    path = FOLDER.with_name("strangers.py")
-    source = path.read_text(encoding="utf-8")
     known = exercises()
-    with SandboxedFunction(
-        Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0
-    ) as student:
-        for node in ast.parse(source).body:
-            if isinstance(node, ast.FunctionDef):
-                exercise, _, kind = node.name.partition("__")
-                report = grade_function(HandIn(student, node.name), known[exercise], file=path.name)
-                yield Graded(f"right_{kind}", report, None)
+    for path in sorted(FOLDER.with_name("strangers").glob("*.py")):
+        source = path.read_text(encoding="utf-8")
+        with SandboxedFunction(
+            Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0
+        ) as student:
+            for node in ast.parse(source).body:
+                if isinstance(node, ast.FunctionDef):
+                    exercise, _, kind = node.name.partition("__")
+                    handed = HandIn(student, node.name)
+                    report = grade_function(handed, known[exercise], file=path.name)
+                    yield Graded(f"right_{kind}", report, None)
 
 
 def complaints(solutions: list[Graded]) -> list[str]:

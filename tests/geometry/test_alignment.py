@@ -312,7 +312,7 @@ def test_the_error_of_a_motion_is_what_was_added_to_the_truth():
 
 
 @settings(max_examples=40, deadline=None)
-@given(SEEDS, st.floats(0.05, 20), motions(), st.floats(0, 0.5))
+@given(seed=SEEDS, scale=st.floats(0.05, 20), T=motions(), noise=st.floats(0, 0.5))
 def test_the_scale_is_that_of_the_similarity_and_noise_makes_there_and_back_less_than_one(
     seed, scale, T, *, noise
 ):

@@ -4,15 +4,25 @@ anybody.
 
 import asyncio
 import contextlib
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
+
+import pytest
 
 from tests import fake
 from tests.fake_page import FakePage
 from tests.loops import run_apart
+from workbench.run import links
 from workbench.run.timeline import Timeline
 from workbench.viewer.server import Server
 
 HERE = "?lesson=fake"
+
+
+@pytest.fixture(scope="module", name="server")
+def attacked_server() -> Iterator[Server]:
+    server = Server(links.Place(fake.lesson, fake.Params()))
+    yield server
+    server.stop()
 
 
 @contextlib.asynccontextmanager

@@ -1,5 +1,5 @@
-"""What the disparity lesson says of its runs, decided from the pictures' truth and the maps that a
-run carries.
+"""What lines of presets and explanations of questions of the disparity lesson say, decided from
+the pictures' truth and the maps that a run carries.
 """
 
 import dataclasses
@@ -7,20 +7,12 @@ import re
 
 import numpy as np
 
-from lessons.disparity.captions import caption as caption_of_map
-from lessons.disparity.lesson import draw
-from lessons.disparity.matching import State
 from tests.own_seed import of_preset
-from tests.readings import LENGTH, NUMBER, metres, number, says, says_length
+from tests.readings import LENGTH, NUMBER, number, says, says_length
 from tests.truths.disparity import (
     CHOSEN,
-    cost_at,
-    depths_off,
     found_at,
-    fresh,
     hidden_given_up,
-    hidden_share,
-    lowest_until,
     near_an_edge,
     of_stage,
     off_in,
@@ -28,194 +20,12 @@ from tests.truths.disparity import (
     run_of,
     true_depth,
     wrong,
-    wrong_along,
 )
 from tests.verdicts import Claim, Run
+from tests.verdicts.disparity.captions import caption
+from tests.verdicts.disparity.values import hidden, sigma
 from workbench.algorithms.stereo.disparity import Stage
 from workbench.lesson import Look
-from workbench.scene import Caption, caption_of
-
-__all__ = ["CAPTIONS", "LINES", "VALUES", "WHYS", "caption", "right"]
-
-
-def caption(look: Look) -> Caption:
-    return caption_of_map(look) if isinstance(look.now, State) else caption_of(draw(look))
-
-
-def right(run: Run, k: int) -> bool | None:
-    """The depths are right within 3 % in the median with few wrong pixels, wrong beyond 10 % or
-    with many.
-    """
-    state = run.states[k]
-    if not isinstance(state, State) or state.stage is not None:
-        return None
-    errors, true = depths_off(run, k)
-    relative = float(np.median(errors / true))
-    if relative > 0.1 or wrong(run, k) > 20.0:
-        return False
-    return True if relative <= 0.03 and wrong(run, k) <= 5.0 else None
-
-
-def first_order(run: Run, k: int, m: re.Match[str]) -> bool:
-    e = number(m["e"])
-    fB = run.subject.f * run.subject.pair.camera.baseline
-    pairs = [part.split(" by ") for part in m["list"].split(", ")]
-    return all(
-        np.isclose(metres(moved), metres(z) ** 2 / fB * e, rtol=0.03, atol=6e-4)
-        for z, moved in pairs
-    )
-
-
-def measured(run: Run, k: int, m: re.Match[str]) -> bool:
-    """The boards, at 1, 5 and 20 m, moved by this in the median."""
-    texts = m["list"].split(", ")
-    moved = [abs(depth - z) for z, depth in found_at(run, k).items()]
-    return all(says_length(text, off_by) for text, off_by in zip(texts, moved, strict=True))
-
-
-CAPTIONS = (
-    Claim(
-        rf"To first order (?P<e>{NUMBER}) px of error moves a depth by Z² / \(f B\):"
-        rf" (?P<list>(?:{LENGTH} by {LENGTH}(?:, )?)+)",
-        first_order,
-    ),
-    Claim(rf"Measured: (?P<list>{LENGTH}(?:, {LENGTH})*)", measured),
-    Claim(
-        r"[Ww]rong pixels|are wrong|in truth|of the truth|to the right|(?:down|up) and right", None
-    ),
-    Claim(r"left and right disagree|what the right camera|is the left one the right one", None),
-    Claim(r"With the pictures exchanged more pixels find each other", None),
-)
-
-
-def chosen(run: Run, k: int) -> tuple[float, float, float]:
-    """Return disparity, depth and true depth of the followed pixel."""
-    state = run.states[k]
-    u, v = run.subject.pixel
-    return (
-        float(state.disparity[v, u]),
-        float(state.depth[v, u]),
-        float(true_depth(run.subject.pair)[v, u]),
-    )
-
-
-def is_map(run: Run) -> bool:
-    return run.params.stage == "whole map"
-
-
-def wrong_at(run: Run, k: int) -> float:
-    stage = run.params.stage
-    return wrong(run, k) / 100 if is_map(run) or stage in ("windows", "penalties") else np.nan
-
-
-def d_of(run: Run, k: int) -> float:
-    if run.params.stage == "row":
-        return k
-    return k if run.states[k].stage is Stage.COMPARE else chosen(run, k)[0]
-
-
-def depth_of(run: Run, k: int) -> float:
-    if run.params.stage == "jump":
-        return 80.0 / (run.params.focal_length * run.params.baseline) * run.states[k].depth
-    d = chosen(run, k)[0] + run.subject.pair.camera.doffs
-    return run.subject.f * run.subject.pair.camera.baseline / d
-
-
-def alone(run: Run, k: int) -> float:
-    """The shift of the lowest sum of grey differences, for each column by itself."""
-    _, v = run.subject.pixel
-    half = run.params.window // 2
-    left = run.subject.left
-    right_ = run.subject.right
-    w = left.shape[1]
-    shifts = range(run.subject.max_disparity + 1)
-    padded = [np.pad(picture, half, mode="edge") for picture in (left, right_)]
-    best = []
-    for u in range(run.states[k].columns):
-        costs = []
-        for d in shifts:
-            if u - d < 0:
-                break
-            # beyond the border of what is compared, its last column counts again
-            columns = np.clip(np.arange(u - half, u + half + 1), d, w - 1)
-            rows = slice(v, v + 2 * half + 1)
-            a = padded[0][rows][:, columns + half]
-            b = padded[1][rows][:, columns - d + half]
-            costs.append(np.abs(a - b).sum())
-        best.append(int(np.argmin(costs)))
-    return wrong_along(run, k, np.array(best, float))
-
-
-def agreeing(run: Run) -> tuple[float, float]:
-    return run.subject.agreeing
-
-
-def sigma(run: Run, k: int) -> float:
-    return 3.0 / (run.params.focal_length * run.states[k].value) * 0.5
-
-
-def hidden(run: Run, k: int) -> float:
-    if is_map(run):
-        return hidden_given_up(run, k)
-    scene = "posts" if run.params.scene == "Motorcycle" else run.params.scene
-    params = dataclasses.replace(
-        run.params, stage="whole map", scene=scene, baseline=run.states[k].value
-    )
-    return hidden_share(pair_of(params)) / 100
-
-
-def jump(run: Run, k: int) -> float:
-    return run.params.focal_length * run.params.baseline / run.states[k].depth
-
-
-def error(run: Run, k: int) -> float:
-    if run.params.stage == "one pixel":
-        return (k - 8) / 8
-    if run.states[k].uncertainty is None:
-        return run.params.disparity_error
-    return abs(run.params.disparity_error) or 0.5
-
-
-def found(run: Run, k: int) -> float:
-    fB = run.params.focal_length * run.params.baseline
-    return fB / (fB / 20.0 + (k - 8) / 8)
-
-
-def mean_step(run: Run, k: int) -> float:
-    d = run.states[k].disparity[np.isfinite(run.states[k].disparity)]
-    return float(np.abs(d - np.round(d)).mean())
-
-
-VALUES = {
-    "d": d_of,
-    "fresh": fresh,
-    "was": lambda run, k: wrong_at(run, k - 1),
-    "wrong": wrong_at,
-    "k": lambda run, k: k - of_stage(run, Stage.AGGREGATE),
-    "is_now": lambda run, k: run.states[k].energy,
-    "lost": lambda run, k: float(np.isnan(run.states[k].disparity).mean()),
-    "hidden": hidden,
-    "exchanged": lambda run, k: agreeing(run)[1],
-    "given": lambda run, k: agreeing(run)[0],
-    "mean": mean_step,
-    "depth": depth_of,
-    "true": lambda run, k: chosen(run, k)[2],
-    "error": error,
-    "half": lambda run, k: float(np.median(depths_off(run, k)[0])),
-    "jump": jump,
-    "found": found,
-    "cost": lambda run, k: cost_at(run, k),
-    "lowest": lambda run, k: cost_at(run, lowest_until(run, k)),
-    "best": lambda run, k: lowest_until(run, k),
-    "window": lambda run, k: (1, 3, 5, 7, 9, 11, 15, 21)[k],
-    "price": lambda run, k: (0, 0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 4)[k],
-    "baseline": lambda run, k: run.states[k].value,
-    "sigma": sigma,
-    "n": lambda run, k: min(4 * (k + 1), run.subject.left.shape[1]),
-    "off": lambda run, k: wrong_along(run, k, run.states[k].path.astype(float)),
-    "alone": alone,
-}
-
 
 # preset lines -------------------------------------------------------------------------------------
 

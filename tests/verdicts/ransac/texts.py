@@ -1,17 +1,13 @@
-"""What the RANSAC lesson says of its runs, decided from the rows and the truth that a run
-carries.
+"""What lines of presets and explanations of questions of the RANSAC lesson say, decided from the
+rows and the truth that a run carries.
 """
 
 import dataclasses
 import re
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
-from lessons.ransac.captions import caption as caption_search
-from lessons.ransac.flat import Draw, Fan, Width
-from lessons.ransac.flat import draw as draw_flat
 from tests.readings import NUMBER, near, near_length
 from tests.truths.ransac import (
     apart,
@@ -20,38 +16,16 @@ from tests.truths.ransac import (
     clutter_votes,
     drawn,
     enough_for,
-    error,
     error_of_rival,
     finished,
-    is_right,
     kept,
     last_error,
     limit_of,
-    line_through,
-    most_trusted,
     refused,
-    rms,
-    share_for_stop,
     votes_on,
 )
 from tests.verdicts import Claim, Run
-from workbench.lesson import Look
-from workbench.scene import Caption, caption_of
-
-__all__ = ["CAPTIONS", "LINES", "VALUES", "WHYS", "caption", "right"]
-
-
-def flat(state) -> bool:
-    return isinstance(state, Draw | Width | Fan)
-
-
-def caption(look: Look) -> Caption:
-    return caption_of(draw_flat(look)) if flat(look.now) else caption_search(look)
-
-
-def right(run: Run, k: int) -> bool | None:
-    state = run.states[k]
-    return None if flat(state) or state.phase != "stop" else is_right(run, k)
+from tests.verdicts.ransac.values import VALUES
 
 
 def distance(name: str) -> str:
@@ -68,166 +42,6 @@ def same(text: str, value: float) -> bool:
         if text.endswith("px")
         else near_length(text, value)
     )
-
-
-def votes(run: Run, k: int) -> float:
-    """Of the model in question, counted anew; of a fan the median over its lines, whose noise is
-    drawn anew.
-    """
-    state = run.states[k]
-    if isinstance(state, Draw):
-        return votes_of_draw(run, k)
-    if isinstance(state, Fan):
-        a, b, c = run.subject.truth
-        ends = np.array([0.0, -c / b]) + state.apart * np.array([[-0.5], [0.5]]) * [b, -a]
-        noise = run.params.noise * np.random.default_rng(run.params.seed).normal(size=(30, 2, 2))
-        return float(np.median([votes_on(run, line_through(ends + errors)) for errors in noise]))
-    return votes_on(run, state.estimate if state.phase == "inliers" else state.best.estimate)
-
-
-def votes_of_draw(run: Run, k: int) -> int:
-    return votes_on(run, line_through(run.subject.p[run.states[k].sample]))
-
-
-def best(run: Run, k: int) -> float:
-    if isinstance(run.states[k], Draw):
-        return max(votes_of_draw(run, i) for i in range(k + 1))
-    return votes_on(run, run.states[k].best.estimate)
-
-
-def clean_so_far(run: Run, k: int) -> int:
-    return sum(run.subject.is_inlier[state.sample].all() for state in run.states[: k + 1])
-
-
-def in_band(run: Run, k: int) -> np.ndarray:
-    return apart("line", run.subject.truth, run.subject.p) <= run.states[k].width
-
-
-def needed(run: Run, k: int) -> float:
-    enough = enough_for(
-        share_for_stop(run, k), run.subject.model.sample_size, run.params.confidence
-    )
-    return min(run.params.most_samples, enough)
-
-
-def msac(run: Run, k: int) -> float:
-    assert run.params.score == "MSAC"
-    off = apart(run.subject.model.name, run.states[k].estimate, run.subject.p)
-    return float(np.maximum(0.0, 1.0 - (off / limit_of(run)) ** 2).sum())
-
-
-def rms_of_voters(run: Run, k: int) -> float:
-    off = apart(run.subject.model.name, run.states[k].best.estimate, run.subject.p)
-    return rms(off[off <= limit_of(run)])
-
-
-def voters_among(run: Run, k: int, rows: np.ndarray) -> int:
-    """How many of these rows lie in the band of the best."""
-    return int((band_of_best(run, k) & rows).sum())
-
-
-def band_of_best(run: Run, k: int) -> np.ndarray:
-    off = apart(run.subject.model.name, run.states[k].best.estimate, run.subject.p)
-    return off <= limit_of(run)
-
-
-VALUES = {
-    "n": lambda run, k: k + 1 if flat(run.states[k]) else run.states[k].iteration,
-    "draws": lambda run, k: k + 1,
-    "votes": votes,
-    "best": best,
-    "all": lambda run, k: len(run.subject.p),
-    "clean": clean_so_far,
-    "width": lambda run, k: 5e-3 * (k + 1),
-    "ringed": lambda run, k: in_band(run, k)[run.subject.is_inlier].sum(),
-    "others": lambda run, k: in_band(run, k)[~run.subject.is_inlier].sum(),
-    "points": lambda run, k: run.subject.is_inlier.sum(),
-    "apart": lambda run, k: 0.05 * (k + 1) if k < 9 else 0.5 + 0.1 * (k - 9),
-    "limit": lambda run, k: limit_of(run),
-    "score": msac,
-    "share": lambda run, k: votes(run, k) / len(run.subject.p),
-    "trusted": lambda run, k: most_trusted(run, k)[0],
-    "part": lambda run, k: most_trusted(run, k)[1],
-    "confidence": lambda run, k: run.params.confidence,
-    "needed": needed,
-    "before": lambda run, k: votes_on(run, run.states[k - 1].best.estimate),
-    "error": lambda run, k: error(run, run.states[k].best.estimate),
-    "rms": rms_of_voters,
-    "wall": lambda run, k: voters_among(run, k, run.subject.is_other),
-    "table": lambda run, k: voters_among(run, k, run.subject.is_inlier),
-    "clutter": lambda run, k: voters_among(run, k, ~(run.subject.is_other | run.subject.is_inlier)),
-}
-
-
-def chosen(run: Run, k: int) -> Any:
-    """The fit that was kept last, before the final refit."""
-    return next(state.best for state in run.states[k::-1] if state.phase == "best")
-
-
-def stays(run: Run, k: int, m: re.Match[str]) -> bool:
-    before, after = run.states[k], run.states[k + 1]
-    replaced = after.phase == "best" and after.iteration == before.iteration
-    return before.trial.score <= before.best.score and not replaced
-
-
-def is_new_best(run: Run, k: int, m: re.Match[str]) -> bool:
-    """It beats every best before it."""
-    latest = run.states[k]
-    return all(
-        latest.best.score > state.best.score for state in run.states[:k] if state.best is not None
-    )
-
-
-def needs_more(run: Run, k: int, m: re.Match[str]) -> bool:
-    enough = enough_for(
-        share_for_stop(run, k), run.subject.model.sample_size, run.params.confidence
-    )
-    return enough >= run.params.most_samples
-
-
-def stopped(run: Run, k: int, m: re.Match[str]) -> bool:
-    last_best = max(i for i in range(k) if run.states[i].phase == "best")
-    asked = enough_for(
-        share_for_stop(run, last_best), run.subject.model.sample_size, run.params.confidence
-    )
-    drawn_here = run.states[k].iteration
-    if m["why"] == "A":
-        return drawn_here >= asked
-    return drawn_here == run.params.most_samples <= asked
-
-
-def clean_draw(run: Run, k: int, m: re.Match[str]) -> bool:
-    return run.subject.is_inlier[run.states[k].sample].all() == (m["what"] == "clean")
-
-
-CAPTIONS = (
-    Claim(r"Draw \d+ is (?P<what>clean|spoilt)", clean_draw),
-    Claim(r"The best of \d+ draws? has", None),
-    Claim(r"Within [\d.]+ mm of the true line", None),
-    Claim(r"The best has [\d,]+: it stays", stays),
-    Claim(r"New best after", is_new_best),
-    Claim(r"samples? allowed are too few", needs_more),
-    Claim(
-        r"So few of the most trusted vote for it that chance can explain it",
-        lambda run, k, _: most_trusted(run, k) == (0, 0.0),
-    ),
-    Claim(r"(?P<why>number of samples is reached: a|A)fter \d+ samples? the best", stopped),
-    Claim(
-        r"the best [\w ]+ has",
-        lambda run, k, _: all(
-            state.trial.score <= chosen(run, k).score
-            for state in run.states[:k]
-            if state.phase == "inliers"
-        ),
-    ),
-    Claim(
-        r"It looks settled, and it is wrong",
-        lambda run, k, _: (
-            not is_right(run, k) and run.states[k].iteration < run.params.most_samples
-        ),
-    ),
-    Claim(r"It is wrong", lambda run, k, _: not is_right(run, k)),
-)
 
 
 # preset lines -------------------------------------------------------------------------------------

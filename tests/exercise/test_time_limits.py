@@ -1,0 +1,131 @@
+"""How long a student's function may take, in one call and in all: who is late loses that call, who
+waits for a processor loses nothing.
+"""
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.exercise.written import POINTS, written
+from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError
+from workbench.exercise.sandbox.pipe import _Deadline
+from workbench.exercise.sandbox.waiting import waited
+
+
+@pytest.mark.parametrize(
+    ("body", "kind", "reason"),
+    [
+        ("while True: pass", "timeout", "took too long"),
+        ("import os; os._exit(1)", "died", "ended its process"),
+    ],
+)
+def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, *, reason):
+    given = written(tmp_path, body).submission
+    with SandboxedFunction(given, "centroid", seconds=5.0, budget=CallBudget(5.0)) as student:
+        began = time.monotonic()
+        errors = []
+        for _ in range(20):
+            with pytest.raises(StudentError) as caught:
+                student(POINTS)
+            errors.append(caught.value)
+    assert {error.kind for error in errors} == {kind}
+    assert [f"not called: 3 calls already {reason}" in str(error) for error in errors] == [
+        False
+    ] * 3 + [True] * 17
+    assert (
+        time.monotonic() - began < 75
+    )  # 15 s of waiting, and starting three times; 100 s without a bound
+
+
+def test_one_late_call_takes_no_time_from_the_next(tmp_path):
+    """Who was promised a second has it in every call: a slow right function keeps its points."""
+    body = "import time; time.sleep(3.0 if p.max() > 100 else 0.7); return p.mean(axis=0)"
+    given = written(tmp_path, body).submission
+    with SandboxedFunction(given, "centroid", seconds=1.5, budget=CallBudget(1.5)) as student:
+        for _ in range(2):
+            with pytest.raises(
+                StudentError, match=r"took more than 1\.5 s, the limit, .* too slow"
+            ):
+                student(1000 * POINTS)
+            np.testing.assert_allclose(student(POINTS), [4.5, 5.5, 6.5])
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux counts it")
+def test_threads_of_one_s_own_do_not_stretch_the_time():
+    """Threads that crowd one processor wait for each other; what the others ran is the function's
+    own time.
+    """
+    busy = """
+import os, threading, time
+import numpy as np
+os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+A = np.random.default_rng(0).normal(size=(400, 400))
+def work():
+    until = time.monotonic() + 3
+    while time.monotonic() < until: np.sort(A, axis=None)
+threads = [threading.Thread(target=work) for _ in range(4)]
+for one in threads: one.start()
+work()
+for one in threads: one.join()
+print(time.process_time() - time.thread_time(), flush=True)
+time.sleep(60)
+"""
+    with subprocess.Popen([sys.executable, "-c", busy], stdout=subprocess.PIPE) as process:
+        try:
+            assert process.stdout is not None
+            others = float(process.stdout.readline())
+            raw = int(Path(f"/proc/{process.pid}/schedstat").read_text().split()[1]) / 1e9
+            counted = waited(process.pid)
+        finally:
+            process.kill()
+    assert min(raw, others) > 0.3
+    assert counted <= raw - min(raw, others) + 0.1
+
+
+def test_who_hangs_in_one_place_is_called_in_all_others(tmp_path):
+    given = written(tmp_path, "while p.max() > 100: pass\nreturn p.mean(axis=0)").submission
+    with SandboxedFunction(given, "centroid", seconds=1.0, budget=CallBudget(1.0)) as student:
+        with pytest.raises(StudentError, match="took more than"):
+            student(1000 * POINTS)
+        for _ in range(5):
+            np.testing.assert_allclose(student(POINTS), [4.5, 5.5, 6.5])
+
+
+def test_all_calls_together_have_a_bound():
+    patience = CallBudget(0.5)
+    for _ in range(30):
+        patience.took(0.4, "")
+    assert "together" in patience.over
+
+
+def test_waiting_for_a_processor_is_not_the_function_s_time():
+    clock, lost = [0.0], [0.0]
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("workbench.exercise.sandbox.pipe.time.monotonic", lambda: clock[0])
+        deadline = _Deadline(5.0, lambda: lost[0])
+        clock[0] = 6.0
+        assert deadline.left() == pytest.approx(-1)
+        lost[0] = 4.0
+        assert deadline.left() == pytest.approx(3)
+        clock[0], lost[0] = 51.0, 50.0
+        assert deadline.left() == pytest.approx(-1)  # ten times as long at most
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux counts it")
+def test_a_process_that_shares_one_processor_has_waited_for_it():
+    busy = "import os; os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})\nwhile True: pass"
+    pair = [subprocess.Popen([sys.executable, "-c", busy]) for _ in range(2)]
+    try:
+        end = time.monotonic() + 60
+        while min(waited(process.pid) for process in pair) < 0.3 and time.monotonic() < end:
+            time.sleep(0.05)
+        assert min(waited(process.pid) for process in pair) >= 0.3
+        assert waited(1 << 30) == 0.0
+    finally:
+        for process in pair:
+            process.kill()
+            process.wait()
