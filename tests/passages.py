@@ -57,7 +57,8 @@ def before(name: str, question: str) -> tuple[Passage, ...]:
 
 
 def _passages(lesson: Lesson, page: str) -> Iterator[Passage]:
-    captions, default = facts(lesson.name)[0], lesson.params()
+    captions = facts(lesson.name)[0]
+    default = lesson.params()
     yield Passage("title and summary", f"{lesson.title}. {lesson.summary}")
     for block in blocks(page_html(page)):
         yield from (Passage("page.md", text, params) for text, params in _by_preset(lesson, block))

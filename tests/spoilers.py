@@ -163,7 +163,8 @@ def by_number(
     question: Question, right: float, texts: Iterable[Passage]
 ) -> Iterator[tuple[Passage, str]]:
     """Yield the passages that hold a number which would be accepted as right."""
-    units, about = units_of(question), words(question.text)
+    units = units_of(question)
+    about = words(question.text)
     enough = 2 if question.unit in UNITS else 1
     given = [value for value, unit in numbers(question.text) if unit in units]
 
@@ -234,7 +235,8 @@ def by_choice(
     """Yield the passages with a sentence that states the right choice more than any wrong one."""
     says = [choice_words(choice) for choice in question.choices]
     own = [mine - set().union(*(other for other in says if other is not mine)) for mine in says]
-    about, which = words(question.text), int(right)
+    about = words(question.text)
+    which = int(right)
     for passage in texts:
         shared = len(about & words(passage.text))
         if passage.question == question.name or (
@@ -268,7 +270,8 @@ def spoilers(
     name: str, question: Question, giveaways: Iterable[str], *, innocent: str = ""
 ) -> list[str]:
     """Return one line for every passage that gives the answer away, with what does."""
-    texts, right = list(read(name, question.name, innocent)), facts(name)[1][question.name]
+    texts = list(read(name, question.name, innocent))
+    right = facts(name)[1][question.name]
     by_rule = [*(by_choice if question.choices else by_number)(question, right, texts)]
     reasons: dict[str, list[str]] = {}
     for passage, why in [*by_rule, *by_hand(question, giveaways, texts)]:

@@ -55,7 +55,8 @@ def cut(path: Path, good: bytes) -> None:
 
 
 def flipped(path: Path, good: bytes) -> None:
-    rng, content = np.random.default_rng(0), np.frombuffer(good, np.uint8).copy()
+    rng = np.random.default_rng(0)
+    content = np.frombuffer(good, np.uint8).copy()
     places = rng.integers(16, len(content), 50)
     content[places] ^= rng.integers(1, 256, 50).astype(np.uint8)
     path.write_bytes(content.tobytes())

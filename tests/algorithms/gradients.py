@@ -51,7 +51,8 @@ def assert_gradient(
         loss, slope = gradient()
         return loss, slope.copy()
 
-    start, (_, slope) = values.copy(), at_the_same_batch()
+    start = values.copy()
+    _, slope = at_the_same_batch()
     size = float(np.abs(slope).max())
     assert size > 0
     one_by_one = chance.choice(

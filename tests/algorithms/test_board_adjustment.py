@@ -105,7 +105,8 @@ def test_the_covariance_is_that_of_all_unknowns_and_of_repetition():
     J = np.zeros((uv.size, 9 + 24))
     for k in range(4):
         rows = slice(108 * k, 108 * (k + 1))
-        J[rows, :9], J[rows, 9 + 6 * k : 15 + 6 * k] = block[k, :9].T, block[k, 9:15].T
+        J[rows, :9] = block[k, :9].T
+        J[rows, 9 + 6 * k : 15 + 6 * k] = block[k, 9:15].T
     variance = adjustment.cost / (uv.size - 33)
     dense = variance * np.linalg.inv(J.T @ J)[:9, :9]
     np.testing.assert_allclose(adjustment.deviations, np.sqrt(np.diag(dense)), rtol=1e-4)

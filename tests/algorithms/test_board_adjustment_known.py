@@ -42,7 +42,8 @@ def test_information_of_what_is_shared_is_what_the_poses_leave():
     whole = np.zeros((6 + 3 * 6, 6 + 3 * 6))
     for k, rows in enumerate(block):
         slopes = np.zeros((6 + 3 * 6, rows.shape[1]))
-        slopes[:6], slopes[6 + 6 * k : 12 + 6 * k] = rows[:9][free], rows[9:15]
+        slopes[:6] = rows[:9][free]
+        slopes[6 + 6 * k : 12 + 6 * k] = rows[9:15]
         whole += slopes @ slopes.T
     poses = whole[6:, 6:]
     expected = whole[:6, :6] - whole[:6, 6:] @ np.linalg.solve(poses, whole[6:, :6])

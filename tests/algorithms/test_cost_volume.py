@@ -99,7 +99,9 @@ def test_running_sums_serve_several_windows():
 @pytest.mark.parametrize("dtype", [np.uint8, float])
 def test_a_shifted_picture_costs_nothing_at_its_shift(volume, window, dtype):
     scene = np.random.default_rng(3).integers(0, 256, (20, 40)).astype(dtype)
-    left, right = scene[:, :30], scene[:, 4:34]  # what is at x in the left is at x - 4 in the right
+    # what is at x in the left is at x - 4 in the right
+    left = scene[:, :30]
+    right = scene[:, 4:34]
     cost = volume(left, right, 8, window)
     assert np.abs(cost[4, 4:-4, 8:-4]).max() < 1e-9
     assert (np.delete(cost, 4, 0)[:, 4:-4, 12:-4] > 0).mean() > 0.99

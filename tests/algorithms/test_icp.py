@@ -237,7 +237,8 @@ def test_corners_bound_the_motion_of_every_point():
 
 
 def test_ones_own_functions_are_called_with_target_first():
-    scans, calls = rabbits(), []
+    scans = rabbits()
+    calls = []
 
     def match(p_target, p_source):
         calls.append((len(p_target), len(p_source)))

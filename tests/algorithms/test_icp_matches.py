@@ -17,7 +17,8 @@ class TestNearest:
     def test_it_agrees_with_looking_at_every_pair(self):
         rng = np.random.default_rng(0)
         for n in (1, 7, 3000):  # the last is searched by several threads
-            p_target, p_source = rng.standard_normal((200, 3)), rng.standard_normal((n, 3))
+            p_target = rng.standard_normal((200, 3))
+            p_source = rng.standard_normal((n, 3))
             expected = scipy.spatial.distance.cdist(p_source, p_target).argmin(axis=1)
             np.testing.assert_array_equal(nearest(p_target, p_source), expected)
 
@@ -92,7 +93,8 @@ def test_the_matcher_leaves_its_arguments_alone():
 @pytest.mark.parametrize("m", [1, 2, 300])
 def test_the_matcher_keeps_a_partner_only_while_no_other_is_nearer(m, step):
     rng = np.random.default_rng(m)
-    p_target, p_source = rng.standard_normal((m, 3)), rng.standard_normal((500, 3))
+    p_target = rng.standard_normal((m, 3))
+    p_source = rng.standard_normal((500, 3))
     match = module.matcher(p_target, p_source)
     for _ in range(20):  # a walk, so that moves since the search add up and cancel
         expected = scipy.spatial.distance.cdist(p_source, p_target).argmin(axis=1)

@@ -38,7 +38,8 @@ def loss_of(
 def test_gradients_are_those_of_finite_differences(target, activation):
     rng = np.random.default_rng(1)
     network = new_network(6, 1, activation, rng=rng)
-    values, (p, y) = network.values.astype(float) / 3, samples(40)
+    values = network.values.astype(float) / 3
+    p, y = samples(40)
     x = encoded(p, 1).astype(float)
     y = y.astype(np.float32)
     layers = perceptron.layers_of(values, network.sizes)
@@ -55,7 +56,8 @@ def test_gradients_are_those_of_finite_differences(target, activation):
 
 
 def test_a_layer_is_its_formula_and_the_input_has_its_waves():
-    network, (p, _) = new_network(5, 2, "tanh", rng=np.random.default_rng(2)), samples(7)
+    network = new_network(5, 2, "tanh", rng=np.random.default_rng(2))
+    p, _ = samples(7)
     x = np.concatenate(
         [p] + [f(np.pi * 2**k * p) for k in (0, 1) for f in (np.sin, np.cos)], axis=1
     )

@@ -21,7 +21,8 @@ def rays(count: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_gradients_are_those_of_differences(monkeypatch):
-    (p, d), rng = rays(60), np.random.default_rng(1)
+    p, d = rays(60)
+    rng = np.random.default_rng(1)
     colors = rng.random((60, 3))
     training = reconstruct(p, d, colors, reach=REACH, counts=(0, 1), rng=rng)
     values, gradient = descended(monkeypatch, radiance_field, lambda: training)

@@ -66,7 +66,8 @@ def opened(chromium, address: str, *, draws: bool) -> dict[str, float]:
     try:
         for script in (() if draws else (DRAWS_NOTHING,)) + (WATCH,):
             page.add_init_script(script)
-        before, began = renderers(), time.process_time()
+        before = renderers()
+        began = time.process_time()
         page.goto(address)
         page.wait_for_function("seen.caption && seen.scene", polling=100)
         server = 1000 * (time.process_time() - began)

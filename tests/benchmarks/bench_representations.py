@@ -125,7 +125,8 @@ def networks() -> dict[str, Contender]:
 
 def steps() -> dict[str, Contender]:
     """Return what a step of the lesson costs before it is drawn."""
-    (p, y), grid = samples(), Grid(np.full(3, -1.0), np.full(3, 2 / 28), (28, 28, 28))
+    p, y = samples()
+    grid = Grid(np.full(3, -1.0), np.full(3, 2 / 28), (28, 28, 28))
     corners = grid.centres()
 
     def ours() -> float:

@@ -26,7 +26,8 @@ pytestmark = pytest.mark.browser
 
 def pose(turn: tuple[float, float, float], t: tuple[float, float, float]) -> np.ndarray:
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = Rotation.from_rotvec(turn).as_matrix(), t
+    T[:3, :3] = Rotation.from_rotvec(turn).as_matrix()
+    T[:3, 3] = t
     return T
 
 

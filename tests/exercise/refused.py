@@ -25,7 +25,8 @@ def refuse(order):
 
 def with_centroids(R, p_target, p_source):
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = R, p_target.mean(0) - R @ p_source.mean(0)
+    T[:3, :3] = R
+    T[:3, 3] = p_target.mean(0) - R @ p_source.mean(0)
     return T
 
 

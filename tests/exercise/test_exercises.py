@@ -165,7 +165,8 @@ def test_one_of_two_mistakes_is_named():
         c_target, c_source = p_target.mean(0), p_source.mean(0)
         U, _, Vt = np.linalg.svd((p_source - c_source).T @ (p_target - c_target))
         T = np.eye(4)
-        T[:3, :3], T[:3, 3] = U @ Vt, c_target - U @ Vt @ c_source
+        T[:3, :3] = U @ Vt
+        T[:3, 3] = c_target - U @ Vt @ c_source
         return T
 
     report = grade_function(transposed_and_mirrored, exercises()["align_rigid"])

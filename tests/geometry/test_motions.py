@@ -95,7 +95,8 @@ def test_identity_has_the_zero_vector():
 def test_exp_of_a_twist_is_the_matrix_exponential(w, v):
     v = v / 1e3
     generator = np.zeros((4, 4))
-    generator[:3, :3], generator[:3, 3] = skew(w), v
+    generator[:3, :3] = skew(w)
+    generator[:3, 3] = v
     np.testing.assert_allclose(
         exp_se3(np.concatenate([v, w])), scipy.linalg.expm(generator), atol=1e-12
     )

@@ -114,7 +114,9 @@ def test_shrinking_pictures_moves_no_point(camera, k, seed):
 def test_the_cloud_projects_back_to_its_pixels(camera, seed):
     rng = np.random.default_rng(seed)
     depth = rng.uniform(0.5, 9.0, (5, 7))
-    depth[1, 2], depth[3, 4], depth[0, 0] = np.nan, np.inf, -1.0
+    depth[1, 2] = np.nan
+    depth[3, 4] = np.inf
+    depth[0, 0] = -1.0
     p_camera, seen = depth_cloud(depth, camera)
     assert p_camera.shape == (5 * 7 - 3, 3)
     assert not seen[1, 2]

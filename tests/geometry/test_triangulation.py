@@ -57,10 +57,8 @@ def test_depth_errors_go_with_one_over_the_baseline_and_some_land_behind():
         Q = camera_matrix(K, motion(np.eye(3), np.array([-baseline, 0.0, 0.0])))
         uv = [np.divide(*np.split(p_h, [2])) for p_h in (P @ [*p, 1], Q @ [*p, 1])]
         z = triangulate(P, Q, *(x + rng.normal(size=(3000, 2)) for x in uv))[:, 2]
-        spread[baseline], behind[baseline] = (
-            (np.percentile(z, 75) - np.percentile(z, 25)) / 1.349,
-            (z < 0).mean(),
-        )
+        spread[baseline] = (np.percentile(z, 75) - np.percentile(z, 25)) / 1.349
+        behind[baseline] = (z < 0).mean()
     assert spread[1.0] == pytest.approx(0.10, abs=0.01)
     assert spread[0.5] == pytest.approx(0.20, abs=0.02)
     assert behind[1.0] == behind[0.5] == 0

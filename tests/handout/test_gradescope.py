@@ -150,7 +150,8 @@ def test_gradescope_has_results_where_the_grader_is_ended(gradescope, bare, tmp_
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
-    results, end = root / "results" / "results.json", time.monotonic() + 120
+    results = root / "results" / "results.json"
+    end = time.monotonic() + 120
     while not (results.exists() and "ran out of time" in results.read_text()):
         assert time.monotonic() < end
         time.sleep(0.02)

@@ -60,7 +60,9 @@ class TestAxes:
         np.testing.assert_allclose(np.sort(across, axis=0)[2], 1.0, atol=1e-9)
 
     def test_power_iteration_takes_four_times_as_many(self):
-        C, v, count = np.cov(scans_of(HOME).p_source.T), np.ones(3) / np.sqrt(3), 0
+        C = np.cov(scans_of(HOME).p_source.T)
+        v = np.ones(3) / np.sqrt(3)
+        count = 0
         while count < 1000:
             w = C @ v / np.linalg.norm(C @ v)
             count += 1
@@ -194,13 +196,15 @@ class TestPicture:
 
     def test_an_axis_is_a_line_until_it_has_a_sign(self):
         k = next(k for k, state in enumerate(states(HOME)) if state.moment == "order")
-        line, arrow = scene(HOME, k)["frame/1"].ends, scene(HOME, k + 1)["frame/1"].ends
+        line = scene(HOME, k)["frame/1"].ends
+        arrow = scene(HOME, k + 1)["frame/1"].ends
         assert len(line) == 1
         assert len(arrow) == 5
         np.testing.assert_allclose(line[0].mean(axis=0), arrow[0, 0], atol=1e-12)
 
     def test_the_ellipsoid_is_two_standard_deviations_large(self):
-        state, shown = states(HOME)[2], scene(HOME, 2)["ellipsoid"]
+        state = states(HOME)[2]
+        shown = scene(HOME, 2)["ellipsoid"]
         off = shown.p - state.p_centre
         C = np.cov(scans_of(HOME).p_source.T, bias=True)
         np.testing.assert_allclose(
@@ -218,7 +222,8 @@ class TestPicture:
 
     def test_what_is_wrong_points_to_where_it_belongs(self):
         params = lesson.preset("box").params
-        shown, scans = scene(params, -2), scans_of(params)
+        shown = scene(params, -2)
+        scans = scans_of(params)
         ends = shown["missed"].ends
         T = scans.T_world_target
         p = scans.p_source[:: -(-len(scans.p_source) // 40)]

@@ -50,10 +50,12 @@ class TestFlat:
         assert rising[0] * rising[1] > 0
 
     def test_the_lines_at_the_ends_of_the_bar_touch_the_ellipse(self):
-        params, outline = lesson.preset("shadow").params, subject("shadow")
+        params = lesson.preset("shadow").params
+        outline = subject("shadow")
         for k in (0, 10, 24, 41):
             a = np.radians(preset("shadow")[k].direction)
-            u, shown = np.array([np.cos(a), np.sin(a)]), scene(params, k)
+            u = np.array([np.cos(a), np.sin(a)])
+            shown = scene(params, k)
             ring = shown["ellipse/line"].ends.reshape(-1, 3)[:, [0, 2]] - outline.centre
             bar = shown["bar"].ends[0][:, [0, 2]] - outline.centre
             assert (ring @ u).max() == pytest.approx((bar @ u).max(), rel=2e-3)
@@ -108,7 +110,8 @@ class TestStarts:
 
     def test_rmse_and_error_are_those_of_the_motions_shown(self):
         params = lesson.preset("starts").params
-        scans, ended = scans_of(params), states(params)[-1]
+        scans = scans_of(params)
+        ended = states(params)[-1]
         for k, T in enumerate(ended.T):
             moved = scans.p_source @ T[:3, :3].T + T[:3, 3]
             gaps = np.sort(cKDTree(scans.p_target).query(moved)[0])

@@ -22,14 +22,16 @@ from workbench.geometry.points.shape_distances import chamfer
 
 def flips(state: State) -> bool:
     """Whether Chamfer and earth mover's rank the cloud and the target 5 % larger differently."""
-    numbers, larger = state.left.numbers, state.yardsticks["5 % larger"]
+    numbers = state.left.numbers
+    larger = state.yardsticks["5 % larger"]
     return (numbers.chamfer < larger.chamfer) != (numbers.earth_movers < larger.earth_movers)
 
 
 class TestPresets:
     def test_clump(self):
         steps = preset("clump")
-        first, last = steps[0], steps[-1]
+        first = steps[0]
+        last = steps[-1]
         assert squared(last.left.numbers.chamfer) == "0.0096 m²"
         assert round(80 * nearer_side(last.left)) == 72
         assert last.left.flow.stop is Stop.SETTLED
@@ -41,7 +43,8 @@ class TestPresets:
     def test_flip(self):
         first = preset("flip")[0]
         assert flips(first)
-        numbers, larger = first.left.numbers, first.yardsticks["5 % larger"]
+        numbers = first.left.numbers
+        larger = first.yardsticks["5 % larger"]
         assert (squared(numbers.chamfer), squared(larger.chamfer)) == ("0.0039 m²", "0.0050 m²")
         assert (metres(numbers.earth_movers), metres(larger.earth_movers)) == ("0.98 m", "0.050 m")
         assert numbers.hausdorff < 0.1  # a few points keep every gap short
@@ -55,7 +58,8 @@ class TestPresets:
 
     def test_bump(self):
         first = preset("bump")[0]
-        numbers, larger = first.left.numbers, first.yardsticks["5 % larger"]
+        numbers = first.left.numbers
+        larger = first.yardsticks["5 % larger"]
         assert squared(numbers.chamfer) == squared(larger.chamfer) == "0.0050 m²"
         assert metres(numbers.earth_movers) == "0.019 m"
         assert "0.019" in line("bump")
@@ -65,7 +69,8 @@ class TestPresets:
 
     def test_missing(self):
         steps = preset("missing")
-        numbers, last = steps[0].left.numbers, steps[-1].left
+        numbers = steps[0].left.numbers
+        last = steps[-1].left
         assert numbers.to_target == 0.0
         assert squared(numbers.to_source) == "0.39 m²"
         assert last.numbers.to_source < 0.01  # lowering both sides fills the missing part
@@ -81,7 +86,8 @@ class TestPresets:
 
     def test_outlier(self):
         first = preset("outlier")[0]
-        numbers, larger = first.left.numbers, first.yardsticks["5 % larger"]
+        numbers = first.left.numbers
+        larger = first.yardsticks["5 % larger"]
         assert numbers.hausdorff == pytest.approx(20 * larger.hausdorff) == pytest.approx(1.0)
         assert numbers.chamfer / larger.chamfer == pytest.approx(2.5, abs=0.05)
         assert numbers.earth_movers / larger.earth_movers == pytest.approx(0.25)
@@ -118,7 +124,8 @@ class TestPresets:
         assert np.median(moved) == 0.0
 
     def test_blurred(self):
-        first, last = preset("blurred")[0].right, preset("blurred")[-1].right
+        first = preset("blurred")[0].right
+        last = preset("blurred")[-1].right
         assert (metres(first.sinkhorn), metres(first.numbers.earth_movers)) == ("0.99 m", "0.81 m")
         assert metres(last.sinkhorn) == "0.54 m"
         assert round(last.numbers.earth_movers, 3) == 0.004
@@ -162,11 +169,9 @@ class TestPage:
         assert all(number in lesson.text() for number in shown)
 
     def test_no_metric(self):
-        zero, pair, unit = (
-            np.zeros((1, 3)),
-            np.array([[0.0, 0, 0], [1, 0, 0]]),
-            np.array([[1.0, 0, 0]]),
-        )
+        zero = np.zeros((1, 3))
+        pair = np.array([[0.0, 0, 0], [1, 0, 0]])
+        unit = np.array([[1.0, 0, 0]])
         assert chamfer(zero, pair) + chamfer(pair, unit) < chamfer(zero, unit)
 
     def test_the_limit_of_places_is_the_default(self):

@@ -18,8 +18,10 @@ from workbench.scene import Curve, Scalar, Table
 class TestPicture:
     def test_both_matchings_are_drawn_where_the_clouds_are(self):
         params = Input()
-        state, shown = states(params)[8], scene(params, 8)
-        p, p_target = state.left.flow.p_moving, state.clouds.p_target
+        state = states(params)[8]
+        shown = scene(params, 8)
+        p = state.left.flow.p_moving
+        p_target = state.clouds.p_target
         to_target = shown["left/to target"].ends
         assert np.array_equal(to_target[:, 0], p)
         np.testing.assert_allclose(
@@ -44,7 +46,8 @@ class TestPicture:
 
     def test_the_pairs_are_unrolled_fans_on_the_left_and_one_to_one_on_the_right(self):
         for params in (Input(), lesson.preset("unequal").params, lesson.preset("sphere").params):
-            state, shown = states(params)[-1], scene(params, -1)
+            state = states(params)[-1]
+            shown = scene(params, -1)
             n, m = len(state.clouds.p_source), len(state.clouds.p_target)
             for side in ("left", "right"):
                 for row, count in (("target row", m), ("source row", n)):
@@ -67,7 +70,8 @@ class TestPicture:
             assert (np.diff(angles) >= -1e-6).all()
 
     def test_the_end_state_shows_where_the_mass_out_of_place_belongs(self):
-        state, shown = states(Input())[-1], scene(Input(), -1)
+        state = states(Input())[-1]
+        shown = scene(Input(), -1)
         ends = shown["left/owed"].ends
         assert len(ends) == round(80 * state.left.numbers.out_of_place)
         assert np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).min() > Input().near
@@ -120,7 +124,8 @@ class TestPicture:
         assert len(scene(Input(), 8)["yardsticks"].rows) == 5
 
     def test_captions_say_how_much_is_out_of_place(self):
-        caption, state = timeline(Input())[8].caption, states(Input())[8]
+        caption = timeline(Input())[8].caption
+        state = states(Input())[8]
         assert caption.values["left"] == state.left.numbers.out_of_place
         assert caption.values["other"] == state.right.numbers.out_of_place
         assert timeline(Input())[-1].caption.tone == "info"
@@ -145,7 +150,8 @@ class TestPicture:
         )
 
     def test_clumps_look_like_clumps(self):
-        shown, p = scene(Input(), -1), states(Input())[-1].left.flow.p_moving
+        shown = scene(Input(), -1)
+        p = states(Input())[-1].left.flow.p_moving
         discs = [primitive for path, primitive in shown.items() if path.startswith("left/clumps")]
         dot = shown["left/source"].radius
         area = sum(len(disc.p) * (disc.radius / dot) ** 2 for disc in discs)
@@ -157,7 +163,8 @@ class TestPicture:
         assert not [path for path in shown if path.startswith("right/clumps")]
 
     def test_points_that_share_a_place_do_not_fight_for_depth(self):
-        state, shown = states(Input())[-1], scene(Input(), -1)
+        state = states(Input())[-1]
+        shown = scene(Input(), -1)
         heights = [shown[f"left/{name}"].p[:, 1] for name in ("target", "source", "clumps of 8")]
         idle = state.left.served == 0
         levels = [heights[1][~idle], heights[1][idle], heights[2], heights[0]]

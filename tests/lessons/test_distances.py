@@ -56,7 +56,8 @@ def test_dijkstra_needs_no_triangle_inequality_and_returns_a_metric():
     """Weights (u + 0.1)^4 break it for many triples; what comes out is Floyd's and Warshall's, and
     a metric.
     """
-    rng, n = np.random.default_rng(0), 60
+    rng = np.random.default_rng(0)
+    n = 60
     edges = np.stack(np.triu_indices(n, 1), axis=1)
     w = (rng.random(len(edges)) + 0.1) ** 4
     given = np.zeros((n, n))  # of the graph, 0 being no edge
@@ -296,7 +297,8 @@ def test_a_click_moves_the_source():
         Params(stage="surface", source=17),
         Params(stage="roll", points=300, source=9),
     ):
-        subject, distances = states(params)[-1].subject, now(Found, params)
+        subject = states(params)[-1].subject
+        distances = now(Found, params)
         assert subject.source == params.source
         assert distances.d[params.source] == distances.truth[params.source] == 0
     assert now(Ball, Params(stage="balls", source=8)).query == 8

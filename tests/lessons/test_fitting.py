@@ -68,7 +68,8 @@ def test_on_twenty_degrees_radii_scatter_to_one_side():
 
 
 def test_the_escape_is_a_straight_line_of_equal_cost():
-    descent, p = moments("escape"), of("escape")[0].subject.p
+    descent = moments("escape")
+    p = of("escape")[0].subject.p
     assert (np.diff([moment.cost for moment in descent]) <= 0).all()
     assert descent[-1].unknown[2] > 40_000
     assert descent[-1].cost == pytest.approx(straight(p), rel=1e-3)

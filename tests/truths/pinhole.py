@@ -76,7 +76,8 @@ def calculated(run: Run) -> dict[str, np.ndarray]:
     R_true = R
     t_true = t
     if params.mistake == "pose inverted":
-        R, t = R.T, -R.T @ t
+        t = -R.T @ t
+        R = R.T
     if params.mistake == "OpenGL axes":
         flip = np.diag([1.0, -1.0, -1.0])
         R = flip @ R

@@ -173,7 +173,8 @@ def test_while_people_wait_for_something_else_only_what_is_waited_for_is_compute
     scheduler = Scheduler(1, busy=busy.is_set)
     try:
         steered.may.release(10_000)
-        run, told = steered.run_of(1, 40), threading.Event()
+        run = steered.run_of(1, 40)
+        told = threading.Event()
         scheduler.want("me", run, 3, tell=told.set)
         assert told.wait(60)
         for _ in range(20):

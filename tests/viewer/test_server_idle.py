@@ -208,7 +208,8 @@ def test_when_nobody_is_there_for_a_while_nothing_is_held(monkeypatch):
 
 
 def test_pages_that_are_being_made_delay_no_step(server, monkeypatch):
-    held, made = threading.Event(), threading.Semaphore(0)
+    held = threading.Event()
+    made = threading.Semaphore(0)
 
     def making(*_) -> str:
         made.release()

@@ -53,7 +53,8 @@ class Listener:
         return self._taken()
 
     def _taken(self) -> Heard:
-        messages, self._wire.messages = self._wire.messages, []
+        messages = self._wire.messages
+        self._wire.messages = []
         self._scene._handle_from_node_name.clear()  # the next node of the same name is a new one
         self._scene._children_from_node_name.clear()
         taken = []

@@ -72,7 +72,9 @@ def run(params: Input, arc: Arc, *, circle_distances=circle_distances) -> Iterat
 
 
 def draw(look: Look[Input, Arc, np.ndarray]) -> Scene:
-    arc, now, steps = look.subject, look.now, "radius" if look.params.by_hand else ""
+    arc = look.subject
+    now = look.now
+    steps = "radius" if look.params.by_hand else ""
     off = rms(circle_distances(arc.p, now))
     return {
         "points": Points(polylines.at_height(arc.p), "target", 0.015, name="measured points"),

@@ -37,7 +37,8 @@ def caption(look: Look) -> Caption:
 
 
 def ranks_differ(run: Run) -> bool:
-    p, other = moving(run, 0, "left"), larger(run)
+    p = moving(run, 0, "left")
+    other = larger(run)
     return (chamfer(p, run) < chamfer(other, run)) != (
         measured(p, run)[2] < measured(other, run)[2]
     )

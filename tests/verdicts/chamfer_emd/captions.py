@@ -46,7 +46,8 @@ def settled(run: Run, k: int, side: str) -> bool:
     """Whether no short step of all points along their pulls lowers the distance; the pulls by
     differences of the matrix.
     """
-    p, target = moving(run, k, side), target_of(run)
+    p = moving(run, k, side)
+    target = target_of(run)
     value = lowered(run, k) if side == "left" else emd(run, k)
     if side == "right":
         # a kink: subgradients, tried by `flow` itself; that the value no longer falls is claimed by
@@ -130,7 +131,8 @@ def _ranked(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _blur(run: Run, k: int, m: re.Match[str]) -> bool:
-    state, target = run.states[k], target_of(run)
+    state = run.states[k]
+    target = target_of(run)
     rng = np.random.default_rng(run.params.seed)
     far = blob(run.params.points, 0.3, True, rng=rng)
     blur = state.blur

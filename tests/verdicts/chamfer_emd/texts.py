@@ -29,7 +29,8 @@ def start(run: Run) -> np.ndarray:
 
 
 def _idle(run: Run, *_) -> bool:
-    p, target = moving(run, -1, "left"), target_of(run)
+    p = moving(run, -1, "left")
+    target = target_of(run)
     serving = np.unique(scipy.spatial.distance.cdist(p, target).argmin(axis=0))
     idle = np.setdiff1d(np.arange(len(p)), serving)
     moved = np.linalg.norm(p - start(run), axis=1)[idle]
@@ -48,7 +49,8 @@ def _blurred(run: Run, *_) -> bool:
 
 
 def _midway(run: Run, *_) -> bool:
-    p, target = moving(run, -1, "right"), target_of(run)
+    p = moving(run, -1, "right")
+    target = target_of(run)
     D = np.sort(scipy.spatial.distance.cdist(p, target), axis=1)
     at_both = (np.abs(D[:, :2] - 0.04) < 0.01).all(axis=1)
     return (len(p), len(target)) == (40, 80) and float(at_both.mean()) >= 0.9

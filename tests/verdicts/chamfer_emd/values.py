@@ -83,7 +83,8 @@ def chamfer(p: np.ndarray, run: Run) -> float:
 
 
 def index_mse(run: Run) -> float:
-    p, target = moving(run, 0, "left"), target_of(run)
+    p = moving(run, 0, "left")
+    target = target_of(run)
     return (
         float(np.mean(np.sum((p - target) ** 2, axis=1))) if len(p) == len(target) else float("nan")
     )

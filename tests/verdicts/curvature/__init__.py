@@ -23,7 +23,8 @@ def right(run: Run, k: int) -> bool | None:
     state = run.states[k]
     v = state.now.vertex
     if state.stage == "total":
-        total, promised = float(state.now.defects.sum()), 2 * np.pi * facts(state)[3]
+        total = float(state.now.defects.sum())
+        promised = 2 * np.pi * facts(state)[3]
         return abs(total - promised) < 1e-6
     if state.stage == "defect":
         return bool(abs(state.now.defects[v] - defect_here(state)) < 1e-6)

@@ -56,7 +56,8 @@ def _k_is(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _relative_error(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    truth, inside = state.subject.truth, ~facts(state)[2]
+    truth = state.subject.truth
+    inside = ~facts(state)[2]
     name = "gaussian" if state.stage == "gaussian" else "mean"
     estimate = state.now.K if name == "gaussian" else state.now.H
     true = getattr(truth, name)
@@ -87,10 +88,14 @@ def _gap(run: Run, k: int, m: re.Match[str]) -> bool:
 def _pointing(run: Run, k: int, m: re.Match[str]) -> bool:
     """The pushes are (cot a + cot b)(p_i - p_j) / 2 A, added up face by face."""
     state = run.states[k]
-    p, v, total = state.subject.p, state.now.vertex, np.zeros(3)
+    p = state.subject.p
+    v = state.now.vertex
+    total = np.zeros(3)
     for face in state.subject.faces[(state.subject.faces == v).any(axis=1)]:
         i = int(np.flatnonzero(face == v)[0])
-        here, first, second = p[face[i]], p[face[(i + 1) % 3]], p[face[(i + 2) % 3]]
+        here = p[face[i]]
+        first = p[face[(i + 1) % 3]]
+        second = p[face[(i + 2) % 3]]
         for neighbour, across in ((first, second), (second, first)):
             u, w = here - across, neighbour - across
             total += u @ w / np.linalg.norm(np.cross(u, w)) * (here - neighbour)
@@ -109,7 +114,8 @@ def _pointing(run: Run, k: int, m: re.Match[str]) -> bool:
 def _principal(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     v = state.now.vertex
-    K, H = float(angle_K(state)[v]), float(at(run, "mean").now.H[v])
+    K = float(angle_K(state)[v])
+    H = float(at(run, "mean").now.H[v])
     if state.params.mistake == "defect taken for K":
         K = defect_here(state)
     roots = np.sort(np.roots([1.0, -2 * H, K]).real)  # k1 and k2 solve x^2 - 2 H x + K = 0

@@ -31,7 +31,8 @@ def _ball(k: int) -> tuple[int, float, float]:
     """
     subject = balls.setup(Input(stage="balls"))
     surface, v = subject.surfaces[k], subject.vertices[k]
-    gap, area = 2 * np.pi, 0.0
+    gap = 2 * np.pi
+    area = 0.0
     for face in surface.faces[(surface.faces == v).any(axis=1)]:
         corner, a, b = surface.p[np.roll(face, -int(np.flatnonzero(face == v)[0]))]
         u, w, far = (float(np.linalg.norm(d)) for d in (a - corner, b - corner, b - a))

@@ -76,7 +76,8 @@ def _to_goal(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     assert state.subject is not None
     goal = state.subject.goal
-    distance, true = float(state.now.d[goal]), float(true_distances(state)[goal])
+    distance = float(state.now.d[goal])
+    true = float(true_distances(state)[goal])
     return near_length(m["found"], distance) and near_length(m["true"], true)
 
 
@@ -93,7 +94,8 @@ def _accepted(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _balls(run: Run, k: int, m: re.Match[str]) -> bool:
     """Of the queries so many change their nearest point; by own formulas."""
-    ball, a = run.states[k].now, run.params
+    ball = run.states[k].now
+    a = run.params
     assert isinstance(ball, Ball)
     units = np.array([1.0, a.stretch])
     v = np.abs((ball.queries[:, None] - ball.p[None]) * units)
@@ -123,7 +125,8 @@ def _detour(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _share_broken(run: Run, k: int, m: re.Match[str]) -> bool:
     """As many as of other triples, by formulas of their own."""
-    trials, a = run.states[k].now, run.params
+    trials = run.states[k].now
+    a = run.params
     assert isinstance(trials, Trials)
     if not says_percent(m["share"], trials.broken / trials.tried):
         return False
@@ -144,13 +147,15 @@ def _share_broken(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _flagged(run: Run, k: int, m: re.Match[str]) -> bool:
-    scatter, d = run.states[k].now, _radii(run, k)
+    scatter = run.states[k].now
+    d = _radii(run, k)
     assert isinstance(scatter, Scatter)
     return says_percent(m["share"], float((d[~scatter.outlier] > 2.4477).mean()))
 
 
 def _second(run: Run, k: int, m: re.Match[str]) -> bool:
-    scatter, d = run.states[k].now, _radii(run, k)
+    scatter = run.states[k].now
+    d = _radii(run, k)
     assert isinstance(scatter, Scatter)
     caught = int((d[scatter.outlier] > 2.4477).sum())
     return number(m["n"]) == caught and says(m["mean"], float(d[scatter.outlier].mean()))

@@ -21,13 +21,15 @@ __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
 def right(run: Run, k: int) -> bool | None:
     state = run.states[k]
-    result, last = state.now, k == len(run.states) - 1
+    result = state.now
+    last = k == len(run.states) - 1
     if isinstance(result, Heat):
         if np.abs(result.u).max() > 1 + 1e-9:
             return False
         return True if last and exact_error(run, k) < 0.01 else None
     if isinstance(result, Smoothed) and last:
-        first, end = off(state, run.states[0].now.p), off(state, result.p)
+        first = off(state, run.states[0].now.p)
+        end = off(state, result.p)
         return False if end > first else True if end < 0.9 * first else None
     if not len(state.subject.classes) or not (
         last or (isinstance(result, Cut) and result.phase == "sign")

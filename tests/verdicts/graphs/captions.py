@@ -38,7 +38,8 @@ def _true_sides(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _cut(run: Run, k: int, m: re.Match[str]) -> bool:
-    result, a = run.states[k].now, A(run.states[k])
+    result = run.states[k].now
+    a = A(run.states[k])
     assert isinstance(result, Cut)
     cut = a[np.ix_(result.side, ~result.side)].sum()
     smaller = min(a[result.side].sum(), a[~result.side].sum())
@@ -49,11 +50,14 @@ def _cut(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def least(run: Run, k: int, m: re.Match[str]) -> bool:
     """No cut along the vector is better."""
-    result, a = run.states[k].now, A(run.states[k])
+    result = run.states[k].now
+    a = A(run.states[k])
     assert isinstance(result, Cut)
     order = np.argsort(result.fiedler, kind="stable")
-    a, d = a[np.ix_(order, order)], a.sum(axis=1)[order]
-    best, cut = np.inf, 0.0
+    d = a.sum(axis=1)[order]
+    a = a[np.ix_(order, order)]
+    best = np.inf
+    cut = 0.0
     for i in range(
         1, len(order)
     ):  # one more node on this side: its edges to the others are cut, those to its own no more
@@ -94,7 +98,8 @@ def _mode(run: Run, k: int, m: re.Match[str]) -> bool:
 def _reached(run: Run, k: int, m: re.Match[str]) -> bool:
     """So many nodes are at most so many edges from a label, and so many are right."""
     state = run.states[k]
-    result, a = state.now, A(state) > 0
+    result = state.now
+    a = A(state) > 0
     assert isinstance(result, Layer)
     have = np.isin(np.arange(len(a)), state.subject.labelled)
     for _ in range(result.layer):
@@ -106,7 +111,8 @@ def _reached(run: Run, k: int, m: re.Match[str]) -> bool:
 def _apart(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     assert isinstance(state.now, Layer)
-    x, along = state.now.features, np.sqrt(A(state).sum(axis=1) + 1)
+    x = state.now.features
+    along = np.sqrt(A(state).sum(axis=1) + 1)
     along = along / np.linalg.norm(along)
     return says_percent(
         m["share"], float(np.linalg.norm(x - along[:, None] * (along @ x)) / np.linalg.norm(x))
@@ -130,7 +136,9 @@ def same(run: Run, k: int) -> bool:
 
 def _applied(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    x, a, v = state.subject.p[:, 0], A(state), state.vertex
+    x = state.subject.p[:, 0]
+    a = A(state)
+    v = state.vertex
     energy = (np.triu(a) * (x[:, None] - x) ** 2).sum()
     return near(m["here"], (a[v] * (x[v] - x)).sum()) and near(m["energy"], energy)
 

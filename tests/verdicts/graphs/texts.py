@@ -23,7 +23,8 @@ def last_cut(run: Run) -> Cut:
 
 def middle(run: Run) -> float:
     """Where the cut edges of the last step are, along x."""
-    side, p = last_cut(run).side, run.states[-1].subject.p
+    side = last_cut(run).side
+    p = run.states[-1].subject.p
     i, j = np.nonzero(np.triu(A(run.states[-1]), 1))
     through = side[i] != side[j]
     return float(np.abs((p[i] + p[j])[through, 0] / 2).max())
@@ -34,7 +35,8 @@ def _of_twelve(run: Run) -> np.ndarray:
 
 
 def _uneven(run: Run, k: int, m: re.Match[str]) -> bool:
-    z, values = run.states[0].subject.p[:, 2], run.states[0].now.values
+    z = run.states[0].subject.p[:, 2]
+    values = run.states[0].now.values
     own = run.params.seed != 0 or np.allclose(values[1:4], [1.7, 1.8, 2.5], atol=0.05)
     return 3 < np.mean(z > 0) / np.mean(z < 0) < 5 and values[3] / values[1] > 1.2 and bool(own)
 
@@ -50,7 +52,8 @@ def _bridge(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _spectra_of_pair(run: Run, of_A: list, of_L: list) -> bool:
     """The eigenvalues of both graphs, from their dense matrices."""
-    whole, classes = A(run.states[0]), run.states[0].subject.classes
+    whole = A(run.states[0])
+    classes = run.states[0].subject.classes
     good = True
     for which in (0, 1):
         part = whole[np.ix_(classes == which, classes == which)]

@@ -73,7 +73,8 @@ def _all_volume(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _cells(run: Run, k: int, m: re.Match[str]) -> bool:
     result = run.states[k].now
-    count, edge = int(result.bits.sum()), float(result.grid.spacing[0])
+    count = int(result.bits.sum())
+    edge = float(result.grid.spacing[0])
     side = np.ptp([run.states[k].subject.low, run.states[k].subject.high], axis=0).max()
     volume = count * edge**3
     agrees = number(m[1]) == round(side / edge) and number(m[2]) == count and near(m[3], volume, 4)
@@ -89,7 +90,8 @@ def _walls(run: Run, k: int, m: re.Match[str]) -> bool:
 def _throws(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     n, hits = int(number(m[1])), int(number(m[2]))
-    share, box = hits / n, float(np.prod(state.subject.high - state.subject.low))
+    share = hits / n
+    box = float(np.prod(state.subject.high - state.subject.low))
     if (
         state.params.draw == "random"
         and state.subject.name == "the sphere"
@@ -106,7 +108,8 @@ def _throws(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _interval(run: Run, k: int, m: re.Match[str]) -> bool:
-    estimates, true = run.states[k].now.estimates, truth(run.states[k])[1]
+    estimates = run.states[k].now.estimates
+    true = truth(run.states[k])[1]
     return (m[1] == "holds") == (abs(estimates.values[-1] - true) <= 1.96 * estimates.errors[-1])
 
 
@@ -115,13 +118,16 @@ def _too_wide(run: Run, k: int, m: re.Match[str]) -> bool:
     the cubes' shares p.
     """
     state = run.states[k]
-    subject, estimates = state.subject, state.now.estimates
-    count, size = estimates.counts[-1], np.prod(subject.high - subject.low)
+    subject = state.subject
+    estimates = state.now.estimates
+    count = estimates.counts[-1]
+    size = np.prod(subject.high - subject.low)
     if (
         state.params.draw != "stratified"
     ):  # an even sequence: one run shows its error, about which nothing is known
         return abs(estimates.values[-1] - truth(state)[1]) < 1.2 * estimates.errors[-1]
-    side, rng = round(count ** (1 / 3)), np.random.default_rng(k)
+    side = round(count ** (1 / 3))
+    rng = np.random.default_rng(k)
     cube = np.stack(np.meshgrid(*[np.arange(side)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
     q = subject.low + (subject.high - subject.low) * (cube + rng.random((len(cube), 16, 3))) / side
     p = subject.inside(q.reshape(-1, 3)).reshape(-1, 16).mean(axis=1)
@@ -162,7 +168,8 @@ def _quarters(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _samples(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    mesh, q = mesh_of(state.subject, whole=True), state.now.q
+    mesh = mesh_of(state.subject, whole=True)
+    q = state.now.q
     right_half = mesh.area_faces[mesh.triangles_center[:, 0] > 0].sum() / mesh.area
     gap = np.linalg.norm(q.mean(axis=0) - mesh.centroid) / np.linalg.norm(mesh.extents)
     agrees = number(m[1]) == len(q) and abs(number(m[2]) - 100 * (q[:, 0] > 0).mean()) < 0.51
@@ -184,7 +191,8 @@ def _ball(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _known_to(run: Run, k: int, m: re.Match[str]) -> bool:
-    hits, n = run.states[k].now.hits[-1], run.states[k].now.throws
+    hits = run.states[k].now.hits[-1]
+    n = run.states[k].now.throws
     return says_percent(m[1], 1.96 * float(np.sqrt((1 - hits / n) / hits)))
 
 
@@ -296,17 +304,21 @@ CAPTIONS = [
 @functools.cache
 def _watched(share: float, counts: tuple[int, ...]) -> tuple[float, float]:
     """The shares of 400 runs, throw by throw, that miss the truth at the last step and at any."""
-    rng, last_, ever = np.random.default_rng(5), 0, 0
+    rng = np.random.default_rng(5)
+    last_ = 0
+    ever = 0
     for _ in range(400):
         hit = np.cumsum(rng.random(counts[-1]) < share)
         p = np.array([hit[n - 1] / n for n in counts])
         out = np.abs(p - share) > 1.96 * np.sqrt(p * (1 - p) / np.array(counts))
-        last_, ever = last_ + out[-1], ever + out.any()
+        last_ = last_ + out[-1]
+        ever = ever + out.any()
     return last_ / 400, ever / 400
 
 
 def _peeked(run: Run, k: int, m: re.Match[str]) -> bool:
-    s, counts = run.states[k].subject, run.states[k].now.estimates.counts
+    s = run.states[k].subject
+    counts = run.states[k].now.estimates.counts
     at_end, ever = _watched(truth(run.states[k])[1] / float(np.prod(s.high - s.low)), counts)
     close = abs(number(m[1]) / 100 - at_end) < 0.04 and abs(number(m[2]) / 100 - ever) < 0.08
     return close and number(m[3]) == len(counts)

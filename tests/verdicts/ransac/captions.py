@@ -24,7 +24,8 @@ def chosen(run: Run, k: int) -> Any:
 
 
 def stays(run: Run, k: int, m: re.Match[str]) -> bool:
-    before, after = run.states[k], run.states[k + 1]
+    before = run.states[k]
+    after = run.states[k + 1]
     replaced = after.phase == "best" and after.iteration == before.iteration
     return before.trial.score <= before.best.score and not replaced
 

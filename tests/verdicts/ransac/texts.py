@@ -61,7 +61,8 @@ def twice_as_many(run: Run, k: int, m: re.Match[str]) -> bool:
     """Of the points on either plane: the wall is upright in the table's own directions, 1 m from
     its middle.
     """
-    best, true = run.states[-1].best, run.subject.is_inlier
+    best = run.states[-1].best
+    true = run.subject.is_inlier
     wall = best.inliers & ~true  # the final plane, where that is upright, is the wall
     return abs(best.estimate[2]) < 0.3 and bool(1.8 < wall.sum() / true.sum() < 2.3)
 
@@ -222,7 +223,8 @@ def reach_of_the_picked(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def on_the_wall(run: Run, k: int, m: re.Match[str]) -> bool:
-    best, true = run.states[-1].best, run.subject.is_inlier
+    best = run.states[-1].best
+    true = run.subject.is_inlier
     of_table = (best.inliers & true).sum() / true.sum()
     k = len(run.states) - 1
     told = [int(m[name]) for name in ("n", "wall", "table", "clutter")]
