@@ -115,7 +115,9 @@ PART = re.compile(
 
 def number(text: str) -> float:
     text = text.lower().replace(",", "").replace("−", "-")
-    return 0.5 if text == "½" else float(WORDS[text]) if text in WORDS else float(text)
+    if text == "½":
+        return 0.5
+    return float(WORDS.get(text, text))
 
 
 def numbers(text: str) -> Iterator[tuple[float, str]]:

@@ -46,9 +46,8 @@ def frames_of(node: ast.expr) -> tuple[str, ...] | None:
             and words
             and all(word in FRAMES for word in words)
         ):
-            return (
-                tuple(words) if len(words) == (2 if kind in ("T", "R", "Ts", "Rs") else 1) else None
-            )
+            wanted = 2 if kind in ("T", "R", "Ts", "Rs") else 1
+            return tuple(words) if len(words) == wanted else None
         return None
     if isinstance(node, ast.Attribute) and node.attr == "T":
         inner = frames_of(node.value)

@@ -238,7 +238,7 @@ class House:
             end = self.end_with(mutant, ran, seconds)
         return asdict(mutant) | {
             "name": mutant.name,
-            "fate": "survived" if end == 0 else "too long" if end is None else "killed",
+            "fate": {0: "survived", None: "too long"}.get(end, "killed"),
             "covered": covered,
             "tests": len(ran),
             "took": round(time.monotonic() - began, 1),

@@ -274,13 +274,8 @@ def links_run_things(home: Home) -> None:
         link = home.find(f"a.run[data-run='{name}']").first
         step = link.get_attribute("data-step")
         run = complete(home, preset.params)
-        at = (
-            int(step)
-            if step is not None
-            else home.lesson.first_step
-            if preset.step is None
-            else preset.step
-        )
+        opens = home.lesson.first_step if preset.step is None else preset.step
+        at = opens if step is None else int(step)
         link.press("Enter")
         home.says(run[opens_at(run, at)].caption.text, opens_at(run, at))
         chosen = home.find(f"button[data-run='{name}'][aria-pressed=true]")

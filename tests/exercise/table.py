@@ -122,14 +122,10 @@ def complaints(solutions: list[Graded]) -> list[str]:
     """Return what is not as it should be: a line for each solution."""
     lines = []
     for solution in solutions:
-        good = (
-            solution.fate == "full"
-            if solution.is_right
-            else solution.fate == "named"
-            if solution.named
-            else solution.fate in ("useful", "vague")
-        )
-        if not good:
+        wanted = ("named",) if solution.named else ("useful", "vague")
+        if solution.is_right:
+            wanted = ("full",)
+        if solution.fate not in wanted:
             asked = f", not {solution.named}" if solution.named else ""
             lines.append(f"{solution.name}: {solution.fate}{asked}\n{terminal(solution.report)}")
     return lines

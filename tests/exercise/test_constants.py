@@ -25,13 +25,11 @@ def filled(value: Any, number: float) -> Any:
     if isinstance(value, (tuple, list)):
         return tuple(filled(part, number) for part in value)
     kind = np.asarray(value).dtype.kind
-    plain = (
-        bool(number)
-        if kind == "b"
-        else int(np.clip(number, -(2**62), 2**62))
-        if kind in "iu"
-        else number
-    )
+    plain: float = number
+    if kind == "b":
+        plain = bool(number)
+    elif kind in "iu":
+        plain = int(np.clip(number, -(2**62), 2**62))
     return np.full(np.shape(value), plain) if isinstance(value, np.ndarray) else plain
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from lessons.pose.state import Repeated
+from tests.truths import decided
 from workbench.algorithms.cameras.camera_search import Searched
 from workbench.algorithms.robust import ransac
 
@@ -57,7 +58,7 @@ def is_right(state: Any) -> bool | None:
         return None
     if isinstance(step, Repeated):
         share = share_near(step, subject)
-        return True if share == 1 else False if share < 0.9 else None
+        return decided(share == 1, wrong=share < 0.9)
     if isinstance(step, ransac.State):
         if step.phase != "stop":
             return None

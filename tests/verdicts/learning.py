@@ -10,6 +10,7 @@ import numpy as np
 from lessons.learning.captions import caption as caption
 from tests.own_seed import of_preset
 from tests.readings import LENGTH, NUMBER, metres, number, says
+from tests.truths import decided
 from tests.truths.learning import farthest, folded, named, overlap, radii, to_given, wrong_by
 from tests.verdicts import Claim, Run
 
@@ -24,8 +25,8 @@ def right(run: Run, k: int) -> bool | None:
         return None
     value, good, bad = judged(run, k)
     if good < bad:
-        return True if value <= good else False if value >= bad else None
-    return True if value >= good else False if value <= bad else None
+        return decided(value <= good, wrong=value >= bad)
+    return decided(value >= good, wrong=value <= bad)
 
 
 def judged(run: Run, k: int) -> tuple[float, float, float]:

@@ -202,7 +202,8 @@ def rows_for_columns(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
 @alternative
 def signs_one_by_one(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """A loop over the two axes."""
-    centre, found = np.mean(p, axis=0), []
+    centre = np.mean(p, axis=0)
+    found = []
     for k in range(2):
         total = sum(float(np.dot(point - centre, axes[:, k])) ** 3 for point in p)
         found.append(-axes[:, k] if total < 0 else axes[:, k])

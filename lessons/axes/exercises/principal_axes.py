@@ -224,7 +224,8 @@ def axes_by_power_iteration(p: np.ndarray) -> np.ndarray:
     """Power iteration for the first axis, squaring the matrix each time, and for the next one
     without it.
     """
-    C, found = covariance(p), []
+    C = covariance(p)
+    found = []
     for k in range(2):
         A = C / (np.trace(C) or 1.0)
         for _ in range(60):

@@ -6,10 +6,9 @@ from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import exp_so3, motion
 
-STUDENTS, GRADERS = (
-    41,
-    HiddenSeed(8527),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 41
+GRADERS = HiddenSeed(8527)
 CAMERA = intrinsics(536.0, 342.0, 236.0, fy=541.0)
 
 

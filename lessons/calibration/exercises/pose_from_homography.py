@@ -225,5 +225,6 @@ def by_polar_decomposition(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     A = A / (np.linalg.norm(A[:, 0]) * np.sign(A[2, 2]))
     R, _ = scipy.linalg.polar(np.column_stack([A[:, 0], A[:, 1], np.cross(A[:, 0], A[:, 1])]))
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = R, A[:, 2]
+    T[:3, :3] = R
+    T[:3, 3] = A[:, 2]
     return T

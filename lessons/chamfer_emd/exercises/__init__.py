@@ -18,10 +18,9 @@ from workbench.exercise import (
 )
 from workbench.geometry.motions import apply, exp_so3, motion
 
-STUDENTS, GRADERS = (
-    53,
-    HiddenSeed(7718),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 53
+GRADERS = HiddenSeed(7718)
 
 
 Cloud = np.ndarray

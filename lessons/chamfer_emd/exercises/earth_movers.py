@@ -289,16 +289,25 @@ def by_shortest_ways(p_a: np.ndarray, p_b: np.ndarray) -> float:
     n = int(np.lcm(len(p_a), len(p_b)))
     a, b = np.repeat(p_a, n // len(p_a), axis=0), np.repeat(p_b, n // len(p_b), axis=0)
     D = np.sqrt(((a[:, None] - b) ** 2).sum(axis=-1))
-    row_of, price, paid = np.full(n, -1), np.zeros(n), np.zeros(n)
+    row_of = np.full(n, -1)
+    price = np.zeros(n)
+    paid = np.zeros(n)
     for row in range(n):
-        way, before, done = np.full(n, np.inf), np.full(n, -1), np.zeros(n, bool)
-        here, column, length = row, -1, 0.0
+        way = np.full(n, np.inf)
+        before = np.full(n, -1)
+        done = np.zeros(n, bool)
+        here = row
+        column = -1
+        length = 0.0
         while here >= 0:
             further = length + D[here] - paid[here] - price
             shorter = ~done & (further < way)
-            way[shorter], before[shorter] = further[shorter], column
+            way[shorter] = further[shorter]
+            before[shorter] = column
             column = int(np.where(done, np.inf, way).argmin())
-            length, here, done[column] = way[column], row_of[column], True
+            length = way[column]
+            here = row_of[column]
+            done[column] = True
         paid[row] += length
         changed = done & (row_of >= 0)
         paid[row_of[changed]] += length - way[changed]

@@ -7,10 +7,9 @@ import numpy as np
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.numerals import brief
 
-STUDENTS, GRADERS = (
-    61,
-    HiddenSeed(8410),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 61
+GRADERS = HiddenSeed(8410)
 
 
 def numbers(values: np.ndarray) -> str:

@@ -192,6 +192,8 @@ def by_skew_matrices(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Multiplies by [l]x."""
     S = np.zeros((len(lines_a), 3, 3))
     a, b, c = lines_a.T
-    S[:, 0, 1], S[:, 0, 2], S[:, 1, 2] = -c, b, -a
+    S[:, 0, 1] = -c
+    S[:, 0, 2] = b
+    S[:, 1, 2] = -a
     S -= S.transpose(0, 2, 1)
     return np.einsum("nij,nj->ni", S, lines_b)

@@ -10,10 +10,9 @@ from workbench.exercise import HiddenSeed, Verdict, against, band, fail, partial
 from workbench.geometry.meshes import face_areas, on_boundary
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = (
-    21,
-    HiddenSeed(8123),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 21
+GRADERS = HiddenSeed(8123)
 
 
 Mesh = tuple[np.ndarray, np.ndarray]
@@ -30,7 +29,8 @@ def with_a_flat_face(p: np.ndarray, faces: np.ndarray) -> Mesh:
     """Return the mesh with a vertex in the middle of the first face's first edge, and there a face
     without area.
     """
-    (a, b, c), middle = faces[0], len(p)
+    a, b, c = faces[0]
+    middle = len(p)
     new = np.array([[a, middle, c], [middle, b, c], [a, b, middle]])
     return np.concatenate([p, (p[[a]] + p[[b]]) / 2]), np.concatenate([faces[1:], new])
 

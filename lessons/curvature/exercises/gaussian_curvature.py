@@ -187,7 +187,8 @@ def gaussian_by_corners(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Angles, areas and shares corner by corner."""
     a, b, c = (p[faces[:, k]] for k in range(3))
     double = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    defect, area = np.full(len(p), 2 * np.pi), np.zeros(len(p))
+    defect = np.full(len(p), 2 * np.pi)
+    area = np.zeros(len(p))
     obtuse = np.zeros(len(faces), bool)
     dots = []
     for k in range(3):
@@ -210,7 +211,8 @@ def gaussian_by_corners(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 @alternative
 def gaussian_by_circumcentres(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Face by face, the Voronoi part as two triangles with the circumcentre."""
-    defect, area = np.full(len(p), 2 * np.pi), np.zeros(len(p))
+    defect = np.full(len(p), 2 * np.pi)
+    area = np.zeros(len(p))
     for face in faces:
         a, b, c = p[face]
         n = np.cross(b - a, c - a)

@@ -245,12 +245,15 @@ def gradient_of_area(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """How the area of the faces around grows when the vertex moves, over the area that belongs to
     it.
     """
-    total, area = np.zeros_like(p), np.zeros(len(p))
+    total = np.zeros_like(p)
+    area = np.zeros(len(p))
     corner = [p[faces[:, k]] for k in range(3)]
     n = np.cross(corner[1] - corner[0], corner[2] - corner[0])
     double = np.linalg.norm(n, axis=1)
     for k in range(3):
-        at, one, two = corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3]
+        at = corner[k]
+        one = corner[(k + 1) % 3]
+        two = corner[(k + 2) % 3]
         np.add.at(total, faces[:, k], np.cross(n / double[:, None], two - one) / 2)
         here = ((one - at) * (two - at)).sum(axis=1)
         there = ((at - one) * (two - one)).sum(axis=1)

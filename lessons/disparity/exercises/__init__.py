@@ -6,10 +6,9 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = (
-    31,
-    HiddenSeed(9241),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 31
+GRADERS = HiddenSeed(9241)
 
 
 Pair = tuple[np.ndarray, np.ndarray]
@@ -56,5 +55,6 @@ def cells_verdict(
 def inner(right: np.ndarray, window: int) -> np.ndarray:
     """Return which cells have a window that lies inside their slice."""
     d, y, x = np.indices(right.shape)
-    reach, (_, h, w) = window // 2, right.shape
+    reach = window // 2
+    _, h, w = right.shape
     return (y >= reach) & (y < h - reach) & (x >= d + reach) & (x < w - reach)

@@ -263,7 +263,8 @@ def pictures_padded(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
 ) -> np.ndarray:
     """Repeats the border of the pictures, not that of the slice."""
-    r, (h, w) = window // 2, left.shape
+    r = window // 2
+    h, w = left.shape
     wide, other = (
         np.pad(picture.astype(float), ((r, r), (r + max_disparity, r)), mode="edge")
         for picture in (left, right)
@@ -335,23 +336,23 @@ def volume_by_shifts(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
 ) -> np.ndarray:
     """One pixel of the window after the other, indices kept inside the slice."""
-    (h, w), reach = left.shape, window // 2
+    h, w = left.shape
+    reach = window // 2
     if left.shape != right.shape:
         raise ValueError("sizes")
     if window <= 0 or not window & 1:
         raise ValueError("window")
     if max_disparity not in range(w):
         raise ValueError("range")
-    a, b, cost = (
-        np.asarray(left, float),
-        np.asarray(right, float),
-        np.zeros((max_disparity + 1, h, w)),
-    )
+    a = np.asarray(left, float)
+    b = np.asarray(right, float)
+    cost = np.zeros((max_disparity + 1, h, w))
     y, x = np.mgrid[:h, :w]
     for d in range(max_disparity + 1):
         for up in range(-reach, reach + 1):
             for aside in range(-reach, reach + 1):
-                row, column = np.clip(y + up, 0, h - 1), np.clip(x + aside, d, w - 1)
+                row = np.clip(y + up, 0, h - 1)
+                column = np.clip(x + aside, d, w - 1)
                 cost[d] += abs(a[row, column] - b[row, column - d])
         cost[d, x < d] = np.inf
     return cost

@@ -185,8 +185,10 @@ def winner_by_sorting(cost: np.ndarray) -> np.ndarray:
 @alternative
 def winner_slice_by_slice(cost: np.ndarray) -> np.ndarray:
     """A better slice overwrites."""
-    winner, lowest = np.zeros(cost.shape[1:], np.int32), cost[0].astype(float)
+    winner = np.zeros(cost.shape[1:], np.int32)
+    lowest = cost[0].astype(float)
     for d, piece in enumerate(cost):
         better = piece < lowest
-        winner[better], lowest[better] = d, piece[better]
+        winner[better] = d
+        lowest[better] = piece[better]
     return winner

@@ -6,10 +6,9 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = (
-    23,
-    HiddenSeed(7019),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 23
+GRADERS = HiddenSeed(7019)
 
 
 def values_verdict(

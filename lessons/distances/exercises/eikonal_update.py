@@ -166,6 +166,7 @@ def where_it_leans(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     """The quadratic where it has its root, the rest first."""
     u = np.minimum(a, b) + h
     both = u > np.maximum(a, b)
-    s, d = a[both] + b[both], a[both] - b[both]
+    s = a[both] + b[both]
+    d = a[both] - b[both]
     u[both] = (s + np.sqrt(2 * h**2 - d**2)) / 2
     return u

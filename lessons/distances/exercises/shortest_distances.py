@@ -134,7 +134,8 @@ def first_visit(edges: np.ndarray, lengths: np.ndarray, count: int, source: int)
     """Breadth first, nothing is lowered."""
     beside = _beside(edges, lengths, count)
     d = np.full(count, np.inf)
-    d[source], queue = 0.0, deque([source])
+    d[source] = 0.0
+    queue = deque([source])
     while queue:
         node = queue.popleft()
         for other, w in beside[node]:
@@ -201,7 +202,8 @@ def next_edge_only(edges: np.ndarray, lengths: np.ndarray, count: int, source: i
         _, node, way = heapq.heappop(heap)
         if done[node]:
             continue
-        done[node], d[node] = True, way
+        done[node] = True
+        d[node] = way
         for other, w in beside[node]:
             heapq.heappush(heap, (w, other, way + w))
     return d
@@ -224,8 +226,10 @@ def in_rounds(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -
 @alternative
 def with_a_heap(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
     """Dijkstra with a heap."""
-    beside, d = _beside(edges, lengths, count), np.full(count, np.inf)
-    d[source], heap = 0.0, [(0.0, source)]
+    beside = _beside(edges, lengths, count)
+    d = np.full(count, np.inf)
+    d[source] = 0.0
+    heap = [(0.0, source)]
     while heap:
         way, node = heapq.heappop(heap)
         if way > d[node]:

@@ -10,10 +10,9 @@ from workbench.exercise import HiddenSeed
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import apply, exp_so3, motion
 
-STUDENTS, GRADERS = (
-    67,
-    HiddenSeed(9127),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 67
+GRADERS = HiddenSeed(9127)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

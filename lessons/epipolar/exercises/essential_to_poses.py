@@ -265,6 +265,7 @@ def signs_of_rotations(E: np.ndarray) -> np.ndarray:
 def by_cofactors(E: np.ndarray) -> np.ndarray:
     """Takes R as the cofactors of E less [t]x E, without W (Horn)."""
     U, _, Vt = np.linalg.svd(E)
-    E, t = U @ np.diag([1.0, 1.0, 0.0]) @ Vt, U[:, 2]
+    E = U @ np.diag([1.0, 1.0, 0.0]) @ Vt
+    t = U[:, 2]
     cofactors = np.stack([np.cross(E[1], E[2]), np.cross(E[2], E[0]), np.cross(E[0], E[1])])
     return four((cofactors - skew(t) @ E, cofactors + skew(t) @ E), t)

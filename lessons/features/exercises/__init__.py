@@ -4,7 +4,6 @@ the corner response.
 
 from workbench.exercise import HiddenSeed
 
-STUDENTS, GRADERS = (
-    41,
-    HiddenSeed(5303),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 41
+GRADERS = HiddenSeed(5303)

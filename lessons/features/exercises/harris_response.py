@@ -172,11 +172,9 @@ def in_numpy_alone(image: np.ndarray) -> np.ndarray:
         weights = weights / weights.sum()
         return filtered(filtered(x, weights, 0), weights, 1)
 
-    smooth, one_two_one, difference = (
-        smoothed(image, 1.0),
-        np.array([1, 2, 1]),
-        np.array([-1, 0, 1]),
-    )
+    smooth = smoothed(image, 1.0)
+    one_two_one = np.array([1, 2, 1])
+    difference = np.array([-1, 0, 1])
     g_u = filtered(filtered(smooth, difference, 1), one_two_one, 0) / 8
     g_v = filtered(filtered(smooth, difference, 0), one_two_one, 1) / 8
     a, b, c = (smoothed(x, 1.5) for x in (g_u * g_u, g_u * g_v, g_v * g_v))

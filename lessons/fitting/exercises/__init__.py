@@ -4,10 +4,9 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, band, fail
 
-STUDENTS, GRADERS = (
-    71,
-    HiddenSeed(8610),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 71
+GRADERS = HiddenSeed(8610)
 
 
 def entries(

@@ -6,10 +6,9 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = (
-    17,
-    HiddenSeed(6043),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 17
+GRADERS = HiddenSeed(6043)
 
 
 def weighted(seed: int, count: int, chance: float = 0.5) -> np.ndarray:

@@ -196,7 +196,8 @@ def by_diagonal_matrices(
 @alternative
 def node_by_node(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Every node gathers for itself."""
-    n, mixed = len(adjacency), features @ weights
+    n = len(adjacency)
+    mixed = features @ weights
     d = 1.0 + adjacency.sum(axis=1)
     out = np.zeros((n, weights.shape[1]))
     for i in range(n):

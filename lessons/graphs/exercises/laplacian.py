@@ -137,7 +137,8 @@ def by_incidence(adjacency: np.ndarray) -> np.ndarray:
     """B W B^T, B having a column per edge: +1 at one end, -1 at the other."""
     a, b = np.nonzero(np.triu(adjacency))
     incidence = np.zeros((len(adjacency), len(a)))
-    incidence[a, np.arange(len(a))], incidence[b, np.arange(len(a))] = 1.0, -1.0
+    incidence[a, np.arange(len(a))] = 1.0
+    incidence[b, np.arange(len(a))] = -1.0
     return incidence * adjacency[a, b] @ incidence.T
 
 

@@ -7,10 +7,9 @@ import numpy as np
 from workbench.exercise import HiddenSeed
 from workbench.geometry.motions import exp_so3, motion
 
-STUDENTS, GRADERS = (
-    37,
-    HiddenSeed(8620),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 37
+GRADERS = HiddenSeed(8620)
 
 
 def a_motion(rng: np.random.Generator, degrees: float, metres: float = 1.0) -> np.ndarray:

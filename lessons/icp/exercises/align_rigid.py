@@ -237,7 +237,9 @@ def align_by_quaternion(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarra
     M = a.T @ b
     v = np.array([M[1, 2] - M[2, 1], M[2, 0] - M[0, 2], M[0, 1] - M[1, 0]])
     N = np.zeros((4, 4))
-    N[0, 0], N[0, 1:], N[1:, 0] = np.trace(M), v, v
+    N[0, 0] = np.trace(M)
+    N[0, 1:] = v
+    N[1:, 0] = v
     N[1:, 1:] = M + M.T - np.trace(M) * np.eye(3)
     w, x, y, z = np.linalg.eigh(N)[1][:, -1]
     R = np.array(
@@ -248,5 +250,6 @@ def align_by_quaternion(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarra
         ]
     )
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = R, p_target.mean(0) - R @ p_source.mean(0)
+    T[:3, :3] = R
+    T[:3, 3] = p_target.mean(0) - R @ p_source.mean(0)
     return T

@@ -259,7 +259,8 @@ def step_about_the_origin(
     Ry = np.array([[np.cos(b), 0, np.sin(b)], [0, 1, 0], [-np.sin(b), 0, np.cos(b)]])
     Rz = np.array([[np.cos(c), -np.sin(c), 0], [np.sin(c), np.cos(c), 0], [0, 0, 1]])
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = Rz @ Ry @ Rx, v
+    T[:3, :3] = Rz @ Ry @ Rx
+    T[:3, 3] = v
     return T
 
 

@@ -6,10 +6,9 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = (
-    61,
-    HiddenSeed(9203),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 61
+GRADERS = HiddenSeed(9203)
 
 
 def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "") -> Verdict:

@@ -174,7 +174,8 @@ def sample_by_sample(density: np.ndarray, spacing: float) -> np.ndarray:
         light = 1.0
         for s in range(density.shape[1]):
             stays = light * np.exp(-density[r, s] * spacing)
-            w[r, s], light = light - stays, stays
+            w[r, s] = light - stays
+            light = stays
     return w
 
 

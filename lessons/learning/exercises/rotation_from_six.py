@@ -153,7 +153,8 @@ def row_by_row(y: np.ndarray) -> np.ndarray:
     for k, six in enumerate(y):
         u = six[:3] / np.sqrt(six[:3] @ six[:3])
         v = six[3:] - (u @ six[3:]) * u
-        R[k, :, 0], R[k, :, 1] = u, v / np.sqrt(v @ v)
+        R[k, :, 0] = u
+        R[k, :, 1] = v / np.sqrt(v @ v)
         R[k, :, 2] = np.cross(R[k, :, 0], R[k, :, 1])
     return R
 
@@ -161,5 +162,6 @@ def row_by_row(y: np.ndarray) -> np.ndarray:
 @alternative
 def by_two_products(y: np.ndarray) -> np.ndarray:
     """Takes the third direction first."""
-    u, w = _unit(y[:, :3]), _unit(np.cross(y[:, :3], y[:, 3:]))
+    u = _unit(y[:, :3])
+    w = _unit(np.cross(y[:, :3], y[:, 3:]))
     return np.stack([u, np.cross(w, u), w], axis=2)

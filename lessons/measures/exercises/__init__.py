@@ -8,10 +8,9 @@ from workbench.data.shapes import solids, surfaces
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = (
-    31,
-    HiddenSeed(9241),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 31
+GRADERS = HiddenSeed(9241)
 
 Mesh = tuple[np.ndarray, np.ndarray]
 

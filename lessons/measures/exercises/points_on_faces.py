@@ -224,9 +224,11 @@ def row_by_row(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
         a, b, c = (float(np.linalg.norm(p[face[i]] - p[face[i - 1]])) for i in range(3))
         half = (a + b + c) / 2
         areas.append(max(half * (half - a) * (half - b) * (half - c), 0.0) ** 0.5)
-    q, total = np.empty((len(u), 3)), sum(areas)
+    q = np.empty((len(u), 3))
+    total = sum(areas)
     for row, (pick, s, t) in enumerate(u):
-        k, left = 0, pick * total
+        k = 0
+        left = pick * total
         while k < len(faces) - 1 and left >= areas[k]:
             left -= areas[k]
             k += 1

@@ -2,7 +2,6 @@
 
 from workbench.exercise import HiddenSeed
 
-STUDENTS, GRADERS = (
-    53,
-    HiddenSeed(7310),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 53
+GRADERS = HiddenSeed(7310)

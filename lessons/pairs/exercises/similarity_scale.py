@@ -214,7 +214,9 @@ def scale_by_quaternion(p_target: np.ndarray, p_source: np.ndarray) -> float:
     M = b.T @ a
     v = np.array([M[1, 2] - M[2, 1], M[2, 0] - M[0, 2], M[0, 1] - M[1, 0]])
     N = np.zeros((4, 4))
-    N[0, 0], N[0, 1:], N[1:, 0] = np.trace(M), v, v
+    N[0, 0] = np.trace(M)
+    N[0, 1:] = v
+    N[1:, 0] = v
     N[1:, 1:] = M + M.T - np.trace(M) * np.eye(3)
     return float(np.linalg.eigvalsh(N)[-1] / (b**2).sum())
 

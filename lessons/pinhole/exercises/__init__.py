@@ -2,7 +2,6 @@
 
 from workbench.exercise import HiddenSeed
 
-STUDENTS, GRADERS = (
-    23,
-    HiddenSeed(9140),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 23
+GRADERS = HiddenSeed(9140)

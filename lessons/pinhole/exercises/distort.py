@@ -213,7 +213,8 @@ def distort_in_the_complex_plane(
     xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
 ) -> np.ndarray:
     """Uses z = x + iy and q = p2 + i p1: z g + 2 Re(conj(q) z) z + q |z|^2."""
-    z, q = xy_camera[:, 0] + 1j * xy_camera[:, 1], p2 + 1j * p1
+    z = xy_camera[:, 0] + 1j * xy_camera[:, 1]
+    q = p2 + 1j * p1
     s = (z * z.conj()).real
     bent = z * (1 + k1 * s + k2 * s * s) + 2 * (q.conjugate() * z).real * z + q * s
     return np.stack([bent.real, bent.imag], axis=1)

@@ -7,10 +7,9 @@ import numpy as np
 from workbench.exercise import HiddenSeed
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
-STUDENTS, GRADERS = (
-    47,
-    HiddenSeed(5310),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 47
+GRADERS = HiddenSeed(5310)
 
 
 def a_view(

@@ -268,7 +268,8 @@ def without_division(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray
 @alternative
 def in_a_loop(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Goes through the poses and keeps the best."""
-    best, least = candidates[0], np.inf
+    best = candidates[0]
+    least = np.inf
     for T in candidates:
         p_camera = p_world @ T[:3, :3].T + T[:3, 3]
         if (p_camera[:, 2] <= 0).any():

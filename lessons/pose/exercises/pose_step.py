@@ -171,8 +171,10 @@ def without_division(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.n
     r = (p[:, :2] / p[:, 2:] - xy).ravel()
     J = np.zeros((len(p), 2, 6))
     J[:, 0, 0] = J[:, 1, 1] = 1 / p[:, 2]
-    J[:, 0, 4], J[:, 0, 5] = 1.0, -p[:, 1] / p[:, 2]
-    J[:, 1, 3], J[:, 1, 5] = -1.0, p[:, 0] / p[:, 2]
+    J[:, 0, 4] = 1.0
+    J[:, 0, 5] = -p[:, 1] / p[:, 2]
+    J[:, 1, 3] = -1.0
+    J[:, 1, 5] = p[:, 0] / p[:, 2]
     x = -np.linalg.lstsq(J.reshape(-1, 6), r, rcond=None)[0]
     return motion(exp_so3(x[3:]), x[:3]) @ T
 

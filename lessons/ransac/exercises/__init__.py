@@ -4,7 +4,6 @@ samples to draw.
 
 from workbench.exercise import HiddenSeed
 
-STUDENTS, GRADERS = (
-    53,
-    HiddenSeed(7411),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 53
+GRADERS = HiddenSeed(7411)

@@ -225,7 +225,8 @@ def needed_by_halving(inlier_ratio: float, sample_size: int, confidence: float) 
     each = np.log1p(-np.exp(sample_size * np.log(inlier_ratio)))
     least, enough = 0, 1
     while enough * each > np.log(1.0 - confidence):
-        least, enough = enough, 2 * enough
+        least = enough
+        enough = 2 * enough
     while enough - least > 1:
         middle = (least + enough) // 2
         if middle * each > np.log(1.0 - confidence):

@@ -8,10 +8,9 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, fail, full, partial
 
-STUDENTS, GRADERS = (
-    61,
-    HiddenSeed(5179),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 61
+GRADERS = HiddenSeed(5179)
 
 
 def rows_verdict(

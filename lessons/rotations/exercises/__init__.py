@@ -7,10 +7,9 @@ import numpy as np
 from workbench.exercise import HiddenSeed
 from workbench.geometry.motions import exp_so3, motion
 
-STUDENTS, GRADERS = (
-    11,
-    HiddenSeed(7310),
-)  # seeds of what a student sees run, and of what only a grader does
+# seeds of what a student sees run, and of what only a grader does
+STUDENTS = 11
+GRADERS = HiddenSeed(7310)
 
 
 def some_motions(seed: int, n: int = 5) -> Iterator[np.ndarray]:

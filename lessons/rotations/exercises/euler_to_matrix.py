@@ -198,11 +198,10 @@ def euler_by_quaternions(angles: np.ndarray, order: str) -> np.ndarray:
     for letter, angle in (
         pairs if order.isupper() else pairs[::-1]
     ):  # on the right, in the order of the product
-        w, (x, y, z) = (
-            np.cos(angle / 2),
-            np.sin(angle / 2) * np.array([letter == "x", letter == "y", letter == "z"]),
-        )
+        w = np.cos(angle / 2)
+        x, y, z = np.sin(angle / 2) * np.array([letter == "x", letter == "y", letter == "z"])
         q = np.array([[w, -x, -y, -z], [x, w, z, -y], [y, -z, w, x], [z, y, -x, w]]) @ q
-    w, v = q[0], q[1:]
+    w = q[0]
+    v = q[1:]
     K = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
     return np.eye(3) + 2 * w * K + 2 * K @ K

@@ -5,6 +5,7 @@ plain assignment.
 from lessons.chamfer_emd import blurred, bunch, far_dot, twelve
 from lessons.chamfer_emd.captions import caption as caption_of_flows
 from lessons.chamfer_emd.state import Clouds, state_of
+from tests.truths import decided
 from tests.verdicts import Run
 from tests.verdicts.chamfer_emd.captions import CAPTIONS
 from tests.verdicts.chamfer_emd.texts import LINES, WHYS
@@ -64,4 +65,4 @@ def right(run: Run, k: int) -> bool | None:
     if k == 0:
         return not blind(run)
     left, other = out_of_place(run, k, "left"), out_of_place(run, k, "right")
-    return True if left < 0.15 and other < 0.15 else False if left > other + 0.05 else None
+    return decided(left < 0.15 and other < 0.15, wrong=left > other + 0.05)

@@ -10,6 +10,7 @@ import scipy
 
 from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, State, Trials
 from tests.readings import LENGTH, NUMBER, near, near_length, number, says, says_percent
+from tests.truths import decided
 from tests.truths.distances import by_heat, errors, mahalanobis, true_distances
 from tests.verdicts import Claim, Run
 from workbench.algorithms.surfaces.heat_method import HeatState
@@ -23,16 +24,12 @@ def right(run: Run, k: int) -> bool | None:
         off = _off(run, k)
         if len(result.asymmetry) and len(off) and off.mean() <= 0.02:
             return None  # right, but a step that asks whether it is a metric
-        return (
-            (True if off.mean() <= 0.02 else False if off.mean() > 0.06 else None)
-            if len(off)
-            else False
-        )
+        return decided(off.mean() <= 0.02, wrong=off.mean() > 0.06) if len(off) else False
     if isinstance(result, Trials):
         return False if result.broken or run.params.metric == "cosine" else None
     if isinstance(result, Scatter) and result.phase == "told" and result.outlier.any():
         beyond = (_radii(run, k) > 2.4477)[result.outlier].mean()
-        return True if beyond >= 0.9 else False if beyond < 0.5 else None
+        return decided(beyond >= 0.9, wrong=beyond < 0.5)
     return None
 
 

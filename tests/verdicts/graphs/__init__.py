@@ -8,6 +8,7 @@ questions.
 import numpy as np
 
 from lessons.graphs.captions import caption
+from tests.truths import decided
 from tests.truths.graphs import correct, off
 from tests.verdicts import Run
 from tests.verdicts.graphs.captions import CAPTIONS, exact_error
@@ -30,7 +31,7 @@ def right(run: Run, k: int) -> bool | None:
     if isinstance(result, Smoothed) and last:
         first = off(state, run.states[0].now.p)
         end = off(state, result.p)
-        return False if end > first else True if end < 0.9 * first else None
+        return decided(end < 0.9 * first, wrong=end > first)
     if not len(state.subject.classes) or not (
         last or (isinstance(result, Cut) and result.phase == "sign")
     ):
@@ -39,5 +40,5 @@ def right(run: Run, k: int) -> bool | None:
         isinstance(result, Layer) and result.features.shape[1] == 2
     ):
         share = correct(state) / len(state.subject.classes)
-        return True if share >= 0.9 else False if share < 0.75 else None
+        return decided(share >= 0.9, wrong=share < 0.75)
     return None

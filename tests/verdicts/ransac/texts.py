@@ -37,11 +37,9 @@ def same(text: str, value: float) -> bool:
     """Whether a distance as it is written is this one, to the digits that are written: of thousands
     of pixels two.
     """
-    return (
-        near(text.removesuffix(" px"), value, 3 if value < 1e3 else 2)
-        if text.endswith("px")
-        else near_length(text, value)
-    )
+    if not text.endswith("px"):
+        return near_length(text, value)
+    return near(text.removesuffix(" px"), value, 3 if value < 1e3 else 2)
 
 
 # preset lines -------------------------------------------------------------------------------------

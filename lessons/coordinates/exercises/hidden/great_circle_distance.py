@@ -14,10 +14,8 @@ def other_places(candidate: Function) -> Verdict:
     """
     a = places(GRADERS(), 12)
     b = places(GRADERS() + 1, 12)
-    a[:3], b[:3] = (
-        [[10.0, 179.5], [-40.0, 170.0], [89.0, 0.0]],
-        [[12.0, -179.0], [-41.0, -170.0], [88.0, 180.0]],
-    )
+    a[:3] = [[10.0, 179.5], [-40.0, 170.0], [89.0, 0.0]]
+    b[:3] = [[12.0, -179.0], [-41.0, -170.0], [88.0, 180.0]]
     b[3] = (
         -a[3, 0] + 0.05,
         a[3, 1] + 180.02 - 360.0 * (a[3, 1] > 0),
@@ -32,10 +30,8 @@ def the_same_place(candidate: Function) -> Verdict:
     """
     a = np.vstack([places(GRADERS() + 2, 40), [[0.0, 0.0], [90.0, 0.0]]])
     b = np.column_stack([-a[:, 0], np.where(a[:, 1] > 0, a[:, 1] - 180, a[:, 1] + 180)])
-    a, b = (
-        np.vstack([a, [[90.0, 20.0]], a, [[90.0, 20.0]]]),
-        np.vstack([a, [[90.0, -70.0]], b, [[-90.0, 80.0]]]),
-    )
+    b = np.vstack([a, [[90.0, -70.0]], b, [[-90.0, 80.0]]])
+    a = np.vstack([a, [[90.0, 20.0]], a, [[90.0, 20.0]]])
     got = candidate(a, b, EARTH)
     right = np.repeat([0.0, np.pi * EARTH], len(a) // 2)
     asked = [f"{numbers(p)} to {numbers(q)}" for p, q in zip(a, b, strict=True)]

@@ -23,7 +23,9 @@ def whole_lens(candidate: Function) -> Verdict:
 def turned_lens(candidate: Function) -> Verdict:
     """Turned about the axis together with (p2, p1), a lens moves turned points alike."""
     c, s = np.cos(0.7), np.sin(0.7)
-    Q, xy, (p1, p2) = np.array([[c, -s], [s, c]]), some_rays(GRADERS() + 2), (0.012, -0.02)
+    Q = np.array([[c, -s], [s, c]])
+    xy = some_rays(GRADERS() + 2)
+    p1, p2 = (0.012, -0.02)
     q = Q @ [p2, p1]
     right = distortion.distort(xy, -0.2, 0.1, p1, p2)
     return bent(candidate(xy @ Q.T, -0.2, 0.1, float(q[1]), float(q[0])), right @ Q.T)

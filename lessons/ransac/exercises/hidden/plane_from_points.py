@@ -95,7 +95,8 @@ def nearly_on_a_line(candidate: Function) -> Verdict:
         (1e3, 1e-3, 1e3, 1e-3, 1e3, 1e-3)
     ):  # long along each axis, and high along the next one
         p = np.zeros((3, 3))
-        p[0, k % 3], p[1, k % 3] = size, 0.5 * size
+        p[0, k % 3] = size
+        p[1, k % 3] = 0.5 * size
         for share in (3e-8, 3e-11):  # of the squared longest side
             p[1, (k + 1) % 3] = share * size
             what = (
