@@ -79,14 +79,14 @@ CEILINGS: dict[str, dict[str, int]] = {
         "long files": 0,
     },
     "lessons": {
-        "several": 366,
-        "unlike": 73,
+        "several": 296,
+        "unlike": 3,
         "nested": 1,
-        "nameless": 150,
+        "nameless": 18,
         "long files": 0,
     },
     "tests": {
-        "several": 261,
+        "several": 262,
         "unlike": 0,
         "nested": 0,
         "nameless": 4,

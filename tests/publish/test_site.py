@@ -250,7 +250,11 @@ def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered, monk
     out, _ = published
     pages = []
     original = site.lesson_page
-    monkeypatch.setattr(site, "lesson_page", lambda *args: pages.append(args[2]) or original(*args))
+    monkeypatch.setattr(
+        site,
+        "lesson_page",
+        lambda *args, **options: pages.append(args[2]) or original(*args, **options),
+    )
     site.publish(out, [SMALL], recordings="all")
     site.publish(out, [SMALL], recordings="all")
     assert ["canonical" in head for head in pages] == [False]  # once without its address

@@ -59,6 +59,7 @@ def test_signs_that_fonts_lack_are_replaced(text, drawn):
         (r"\unknown{x}", r"\unknownx"),
         (r"\frac", r"\frac"),
         (r"x^", "x^"),
+        (r"^\bf", r"^\bf"),
         ("}", "}"),
         ("a & b", "a & b"),
         (r"(-n^\top, -1) = K^{-\top}", "(−n^T, −1) = K^(−T)"),

@@ -46,7 +46,7 @@ def level_lines(
 
     Examples:
         >>> values = np.array([[0.0, 1.0], [0.0, 1.0]])
-        >>> level_lines(values, np.array([0.25]), np.zeros(2), 1.0).tolist()
+        >>> level_lines(values, np.array([0.25]), np.zeros(2), spacing=1.0).tolist()
         [[[0.25, 0.0], [0.25, 1.0]]]
     """
     ends = [np.empty((0, 2, 2))]

@@ -8,6 +8,10 @@ from xml.etree.ElementTree import Element
 from workbench.recording.glyphs import safe
 from workbench.words.typeset import math_html
 
+_PARTS = dict.fromkeys(("mfrac", "mover", "msub", "munder", "msup"), 2) | dict.fromkeys(
+    ("msubsup", "munderover"), 3
+)
+"""How many parts an element of MathML has; a formula where one lacks stays as it was written."""
 THIN = "\u2009"
 """A space that an author set; others stand about operators, but not in scripts."""
 _SPACED = frozenset("=+−-<>≤≥≈≠≡≪≫×·∣→←↔⇒")
@@ -43,6 +47,8 @@ def plain_formula(tex: str) -> str:
             math_html(tex).replace(' xmlns="http://www.w3.org/1998/Math/MathML"', "")
         )
     except ElementTree.ParseError:  # a sign such as & that belongs nowhere
+        return tex
+    if any(len(part) < _PARTS.get(part.tag, 0) for part in typeset.iter()):  # `^` with nothing
         return tex
     return (
         " ".join(_said(typeset).split())

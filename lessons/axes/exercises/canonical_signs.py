@@ -72,18 +72,20 @@ def signs_verdict(
         longer = float(np.abs(np.linalg.norm(got[:, k]) - 1.0))
         x, y, z = right[:, k]
         if max(off, longer) > 1e-5:
-            said = ", ".join(f"{value:.3g}" for value in got[:, k])
-            return fail(f"Axis {k + 1} is ({said}), right is ({x:.3f}, {y:.3f}, {z:.3f}). {hint}")
+            entries = ", ".join(f"{value:.3g}" for value in got[:, k])
+            return fail(
+                f"Axis {k + 1} is ({entries}), right is ({x:.3f}, {y:.3f}, {z:.3f}). {hint}"
+            )
     turned = [k + 1 for k in range(3) if got[:, k] @ right[:, k] < 0]
     if not turned:
         return full("All three axes point where they should.")
     moments = ", ".join(
         f"{value:.2g}" for value in geometry.third_moments(axes, p) / np.std(p) ** 3
     )
-    said = f"The third moments of what came in are {moments} (over the cube of the spread)"
+    evidence = f"The third moments of what came in are {moments} (over the cube of the spread)"
     names = " and ".join(map(str, turned))
     return fail(
-        f"Of the three axes {len(turned)} are turned round (axis {names}), right is 0. {said}."
+        f"Of the three axes {len(turned)} are turned round (axis {names}), right is 0. {evidence}."
         f" {hint}"
     )
 
@@ -203,11 +205,11 @@ def rows_for_columns(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
 def signs_one_by_one(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """A loop over the two axes."""
     centre = np.mean(p, axis=0)
-    found = []
+    signed = []
     for k in range(2):
         total = sum(float(np.dot(point - centre, axes[:, k])) ** 3 for point in p)
-        found.append(-axes[:, k] if total < 0 else axes[:, k])
-    return np.array([found[0], found[1], np.cross(found[0], found[1])]).T
+        signed.append(-axes[:, k] if total < 0 else axes[:, k])
+    return np.array([signed[0], signed[1], np.cross(signed[0], signed[1])]).T
 
 
 @alternative

@@ -102,14 +102,14 @@ def axes_verdict(axes: np.ndarray, p: np.ndarray, hint: str = AXES_HINT, first: 
     if geometry.degrees_between_axes(axes.T, right).max() < 0.1 < degrees[worst_axis]:
         hint = "Your rows are the axes: transpose the matrix."
     x, y, z = right[:, worst_axis]
-    said = f"right is ({x:.3f}, {y:.3f}, {z:.3f}), or the opposite. {hint}"
+    correction = f"right is ({x:.3f}, {y:.3f}, {z:.3f}), or the opposite. {hint}"
     return band(
         f"Axis {worst_axis + 1} is off by",
         float(degrees.max()),
         "degrees",
         good=0.1,
         fair=2.0,
-        hint=said,
+        hint=correction,
     )
 
 
@@ -225,7 +225,7 @@ def axes_by_power_iteration(p: np.ndarray) -> np.ndarray:
     without it.
     """
     C = covariance(p)
-    found = []
+    axes = []
     for k in range(2):
         A = C / (np.trace(C) or 1.0)
         for _ in range(60):
@@ -235,10 +235,10 @@ def axes_by_power_iteration(p: np.ndarray) -> np.ndarray:
         axis = (
             column / length
             if length > 0.5
-            else np.eye(3)[np.abs(found).sum(axis=0).argmin() if k else 0]
+            else np.eye(3)[np.abs(axes).sum(axis=0).argmin() if k else 0]
         )
-        axis = axis - sum((axis @ other) * other for other in found) if found else axis
+        axis = axis - sum((axis @ other) * other for other in axes) if axes else axis
         axis = axis / np.linalg.norm(axis)
-        found.append(axis * np.sign(axis[np.abs(axis).argmax()]))
+        axes.append(axis * np.sign(axis[np.abs(axis).argmax()]))
         C = C - axis @ C @ axis * np.outer(axis, axis)
-    return np.column_stack([*found, np.cross(*found)])
+    return np.column_stack([*axes, np.cross(*axes)])

@@ -17,21 +17,23 @@ def views(seed: int, count: int = 3, noise: float = 0.0) -> list[tuple[np.ndarra
     scale and sign.
     """
     rng = np.random.default_rng(seed)
-    found = []
+    pairs = []
     for k in range(count):
         R = exp_so3(rng.uniform(-0.7, 0.7, 3))
         T = motion(R, np.array([*rng.uniform(-0.15, 0.15, 2), rng.uniform(0.3, 0.9)]))
         H = CAMERA @ T[:3, [0, 1, 3]] * rng.uniform(0.2, 5.0) * (-1) ** k
-        found.append((T, H * (1 + noise * rng.normal(size=(3, 3)))))
-    return found
+        pairs.append((T, H * (1 + noise * rng.normal(size=(3, 3)))))
+    return pairs
 
 
-def rows_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "") -> Verdict:
+def rows_verdict(got: np.ndarray, right: np.ndarray, hint: str, label: str = "") -> Verdict:
     """Judge rows by the entry that is farthest off, as a share of its row's length."""
     size = np.linalg.norm(right, axis=1, keepdims=True)
     off = np.where(np.isfinite(got), np.abs(got - right) / size, np.inf)
     if off.max() <= 1e-6:
-        return full(f"{what}all {got.size} entries are right.")
+        return full(f"{label}all {got.size} entries are right.")
     i, j = np.unravel_index(np.argmax(off), off.shape)
-    said = f"{what}entry [{i}, {j}] is {against(got[i, j], right[i, j], 5)}."
-    return partial(0.5, f"{said} Close. {hint}") if off.max() <= 1e-4 else fail(f"{said} {hint}")
+    message = f"{label}entry [{i}, {j}] is {against(got[i, j], right[i, j], 5)}."
+    return (
+        partial(0.5, f"{message} Close. {hint}") if off.max() <= 1e-4 else fail(f"{message} {hint}")
+    )

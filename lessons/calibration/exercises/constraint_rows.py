@@ -49,9 +49,9 @@ def constraint_rows(H: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "2 6"]:
 HINT = "With v(a, b) · b = aᵀ B b the rows are v(h1, h2) and v(h1, h1) - v(h2, h2); h1 = H[:, 0]."
 
 
-def found(candidate: Function, H: np.ndarray, what: str = "") -> Verdict:
+def found(candidate: Function, H: np.ndarray, label: str = "") -> Verdict:
     """Judge the rows of one homography."""
-    return rows_verdict(candidate(H), calibration.constraint_rows(H), HINT, what)
+    return rows_verdict(candidate(H), calibration.constraint_rows(H), HINT, label)
 
 
 def whole(seed: int) -> np.ndarray:

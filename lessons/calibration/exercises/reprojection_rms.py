@@ -45,13 +45,13 @@ def reprojection_rms(residuals: Float[np.ndarray, "n 2"]) -> float:
 HINT = "Square each length du² + dv², average over the n points, take the root."
 
 
-def said(candidate: Function, residuals: np.ndarray, what: str = "The rms") -> Verdict:
+def said(candidate: Function, residuals: np.ndarray, quantity: str = "The rms") -> Verdict:
     """Judge the rms of some residuals, by its relative error."""
     right = calibration.reprojection_rms(residuals)
     got = float(candidate(residuals))
     off = 100 * abs(got - right) / (right or 1.0)
     told = f"Yours is {against(got, right, unit='px')}. {HINT}"
-    return band(f"{what} is off by", off, "%", good=1e-4, fair=0.01, hint=told)
+    return band(f"{quantity} is off by", off, "%", good=1e-4, fair=0.01, hint=told)
 
 
 def some(seed: int, n: int, sigma: float = 0.3, shift: float = 0.0) -> np.ndarray:

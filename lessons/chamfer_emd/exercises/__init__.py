@@ -29,22 +29,22 @@ Cloud = np.ndarray
 ZERO = 1e-7  # metres, or square metres: what counts as 0
 
 
-def value_verdict(got: float, right: float, unit: str, hint: str, what: str = "") -> Verdict:
+def value_verdict(got: float, right: float, unit: str, hint: str, label: str = "") -> Verdict:
     """Judge a distance by its relative error: all points up to 0.01 %, half up to 1 %; a distance
     of 0 by itself.
     """
-    yours = f"{what}yours" if what else "Yours"
+    yours = f"{label}yours" if label else "Yours"
     if right == 0.0:
         if abs(got) <= ZERO:
-            return full(f"{what}{number(got, 2)} {unit}, as good as 0.")
+            return full(f"{label}{number(got, 2)} {unit}, as good as 0.")
         return fail(f"{yours} is {number(got)} {unit}, right is 0. {hint}")
     off = 100 * abs(got - right) / right
     if off <= 0.01:
-        return full(f"{what}{number(got)} {unit}, right within 0.01 %.")
-    said = f"{yours} is {against(got, right, 5, unit=unit)}: {number(off, 3)} % off"
+        return full(f"{label}{number(got)} {unit}, right within 0.01 %.")
+    message = f"{yours} is {against(got, right, 5, unit=unit)}: {number(off, 3)} % off"
     if off <= 1:
-        return partial(0.5, f"{said}, close; full marks need 0.01 %. {hint}")
-    return fail(f"{said}. {hint}")
+        return partial(0.5, f"{message}, close; full marks need 0.01 %. {hint}")
+    return fail(f"{message}. {hint}")
 
 
 def two_clouds(seed: int, n: int, m: int) -> tuple[Cloud, Cloud]:
@@ -77,7 +77,7 @@ def no_points_refused(candidate: Function) -> Verdict:
         (some, none, "An empty p_b"),
         (none, none, "Two empty clouds"),
     )
-    return worst(refused(candidate, p_a, p_b, what=what) for p_a, p_b, what in calls)
+    return worst(refused(candidate, p_a, p_b, what=label) for p_a, p_b, label in calls)
 
 
 PAIR = "np.array([[0.0, 0, 0], [1, 0, 0]])"

@@ -59,10 +59,10 @@ def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> flo
 CHAMFER_HINT = "Each side is a mean over its own points of squared nearest distances; add the two."
 
 
-def chamfer_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> Verdict:
+def chamfer_found(candidate: Function, p_a: Cloud, p_b: Cloud, label: str = "") -> Verdict:
     """Judge both sides by ours."""
     return value_verdict(
-        candidate(p_a, p_b), shape_distances.chamfer(p_a, p_b), "m²", CHAMFER_HINT, what
+        candidate(p_a, p_b), shape_distances.chamfer(p_a, p_b), "m²", CHAMFER_HINT, label
     )
 
 

@@ -67,10 +67,10 @@ def earth_movers(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -
 MOVER_HINT = "The one-to-one matching with the least total of plain distances; their mean."
 
 
-def mover_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> Verdict:
+def mover_found(candidate: Function, p_a: Cloud, p_b: Cloud, label: str = "") -> Verdict:
     """Judge by ours, which is exact."""
     return value_verdict(
-        candidate(p_a, p_b), transport.earth_movers(p_a, p_b), "m", MOVER_HINT, what
+        candidate(p_a, p_b), transport.earth_movers(p_a, p_b), "m", MOVER_HINT, label
     )
 
 
@@ -341,7 +341,7 @@ def earth_movers_by_programme(p_a: np.ndarray, p_b: np.ndarray) -> float:
     sums = np.zeros((n + m, n * m))
     for i, j in itertools.product(range(n), range(m)):
         sums[i, i * m + j] = sums[n + j, i * m + j] = 1.0
-    found = linprog(
+    optimum = linprog(
         D.ravel(), A_eq=sums, b_eq=np.r_[np.full(n, 1 / n), np.full(m, 1 / m)], method="highs"
     )
-    return float(found.fun or 0.0)
+    return float(optimum.fun or 0.0)

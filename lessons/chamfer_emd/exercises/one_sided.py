@@ -61,10 +61,10 @@ def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> f
 SIDE_HINT = "Mean over the points of a of the squared distance to the nearest point of b."
 
 
-def side_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> Verdict:
+def side_found(candidate: Function, p_a: Cloud, p_b: Cloud, label: str = "") -> Verdict:
     """Judge one side by ours."""
     return value_verdict(
-        candidate(p_a, p_b), shape_distances.one_sided(p_a, p_b), "m²", SIDE_HINT, what
+        candidate(p_a, p_b), shape_distances.one_sided(p_a, p_b), "m²", SIDE_HINT, label
     )
 
 

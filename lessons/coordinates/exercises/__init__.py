@@ -61,7 +61,11 @@ def row_by_row(
         fair: Up to where half of them are.
     """
     worst = int(np.argmax(np.where(np.isfinite(off), off, np.inf)))
-    said = f"{asked[worst]}: your answer is {told(got[worst], right[worst])}."
+    message = f"{asked[worst]}: your answer is {told(got[worst], right[worst])}."
     if off[worst] <= good:
         return full(f"All {len(off)} are right. The last: {asked[-1]}.")
-    return partial(0.5, f"Close. {said} {hint}") if off[worst] <= fair else fail(f"{said} {hint}")
+    return (
+        partial(0.5, f"Close. {message} {hint}")
+        if off[worst] <= fair
+        else fail(f"{message} {hint}")
+    )

@@ -111,9 +111,9 @@ def near(candidate: Function, polar: np.ndarray, r: float, azimuth: float = 0.0)
     p = np.column_stack([x, y, r * np.cos(polar)])
     got = candidate(p)
     off = np.abs(got[:, 1] / polar - 1)
-    said = [f"A polar angle of {numbers(one)} radians" for one in polar]
+    asked = [f"A polar angle of {numbers(angle)} radians" for angle in polar]
     turned = judged(candidate, p)
-    return worst((row_by_row(said, got[:, 1], polar, off, AXIS, good=1e-4, fair=1e-2), turned))
+    return worst((row_by_row(asked, got[:, 1], polar, off, AXIS, good=1e-4, fair=1e-2), turned))
 
 
 def columns(r: np.ndarray, polar: np.ndarray, azimuth: np.ndarray) -> np.ndarray:

@@ -56,7 +56,7 @@ def curvature_verdict(
     good: float,
     fair: float,
     size: float = 0.0,
-    what: str = "",
+    label: str = "",
 ) -> Verdict:
     """Judge numbers or vectors at the vertices in per cent; where `right` is nan, nan is asked for.
 
@@ -67,18 +67,18 @@ def curvature_verdict(
         good: Per cent of error up to which all points are earned.
         fair: The same for half of them.
         size: What the error is related to; the largest of `right` where it is not given.
-        what: How the message begins: the mesh.
+        label: How the message begins: the mesh.
     """
     got, right = got.reshape(len(got), -1), right.reshape(len(right), -1)
     inside = ~np.isnan(right).any(axis=1)
     lost = np.flatnonzero(inside & ~np.isfinite(got).all(axis=1))
     if lost.size:
         i = lost[0]
-        said = (
-            f"{what}{lost.size} of {inside.sum()} vertices inside the border have no finite value."
+        message = (
+            f"{label}{lost.size} of {inside.sum()} vertices inside the border have no finite value."
             f" At vertex {i} yours is"
         )
-        return fail(f"{said} {against(got[i].squeeze(), right[i].squeeze())}. {hint}")
+        return fail(f"{message} {against(got[i].squeeze(), right[i].squeeze())}. {hint}")
     away = np.zeros(len(got))
     away[inside] = np.linalg.norm(got[inside] - right[inside], axis=1)
     i = int(np.argmax(away))
@@ -86,7 +86,7 @@ def curvature_verdict(
     told = f"At vertex {i} yours is {against(got[i].squeeze(), right[i].squeeze())}. {hint}"
     size = size or float(np.linalg.norm(right[inside], axis=1).max())
     verdict = band(
-        f"{what}largest error" if what else "Largest error",
+        f"{label}largest error" if label else "Largest error",
         100 * float(off) / size,
         "%",
         good=good,
@@ -95,16 +95,16 @@ def curvature_verdict(
     )
     stray = int((~np.isnan(got[~inside])).any(axis=1).sum())
     if stray and verdict.share > 0:
-        said = (
-            f"{what}{stray} of {(~inside).sum()} border vertices have a value; the contract asks"
+        message = (
+            f"{label}{stray} of {(~inside).sum()} border vertices have a value; the contract asks"
             " for nan on the border."
         )
         return partial(
             0.5,
             (
-                f"{said} The others are right."
+                f"{message} The others are right."
                 if verdict.share == 1.0
-                else f"{said} {verdict.message}"
+                else f"{message} {verdict.message}"
             ),
         )
     return verdict

@@ -75,9 +75,9 @@ def spheres(candidate: Function) -> Verdict:
     for radius in (0.5, 3.0):
         ball = surfaces.sphere(162, radius)
         got = candidate(ball.p, ball.faces)
-        what = f"Radius {radius:g} m: "
+        label = f"Radius {radius:g} m: "
         verdicts.append(
-            curvature_verdict(got, ball.gaussian, GAUSSIAN_HINT, good=3, fair=12, what=what)
+            curvature_verdict(got, ball.gaussian, GAUSSIAN_HINT, good=3, fair=12, label=label)
         )
     return worst(verdicts)
 

@@ -75,11 +75,13 @@ def mean_curvature_normals(
 NORMAL_HINT = "Add up (cot a + cot b) (p_i - p_j) over the edges and divide by 2 A_i."
 
 
-def _pulled(candidate: Function, mesh: Surface, hint: str = NORMAL_HINT, what: str = "") -> Verdict:
+def _pulled(
+    candidate: Function, mesh: Surface, hint: str = NORMAL_HINT, label: str = ""
+) -> Verdict:
     """Judge 2 H n against the right answer on the same mesh."""
     right = curvature.mean_curvature_normals(mesh.p, mesh.faces)
     return curvature_verdict(
-        candidate(mesh.p, mesh.faces), right, hint, good=0.1, fair=5, what=what
+        candidate(mesh.p, mesh.faces), right, hint, good=0.1, fair=5, label=label
     )
 
 
@@ -93,7 +95,7 @@ def outward_on_spheres(candidate: Function) -> Verdict:
         right = 2 / radius * ball.normals
         verdicts.append(
             curvature_verdict(
-                got, right, NORMAL_HINT, good=3, fair=12, what=f"Radius {radius:g} m: "
+                got, right, NORMAL_HINT, good=3, fair=12, label=f"Radius {radius:g} m: "
             )
         )
     return worst(verdicts)
@@ -165,8 +167,8 @@ def cotangent_pull(
     total = np.zeros_like(p)
     for k in range(3):
         i, j, o = (faces[:, (k + m) % 3] for m in range(3))
-        at, one, two = (o, i, j) if opposite else (i, j, o)
-        a, b = p[one] - p[at], p[two] - p[at]
+        at, first, second = (o, i, j) if opposite else (i, j, o)
+        a, b = p[first] - p[at], p[second] - p[at]
         pull = ((a * b).sum(axis=1) / np.linalg.norm(np.cross(a, b), axis=1))[:, None] * (
             p[i] - p[j]
         )
@@ -252,16 +254,17 @@ def gradient_of_area(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     double = np.linalg.norm(n, axis=1)
     for k in range(3):
         at = corner[k]
-        one = corner[(k + 1) % 3]
-        two = corner[(k + 2) % 3]
-        np.add.at(total, faces[:, k], np.cross(n / double[:, None], two - one) / 2)
-        here = ((one - at) * (two - at)).sum(axis=1)
-        there = ((at - one) * (two - one)).sum(axis=1)
-        far = ((at - two) * (one - two)).sum(axis=1)
-        voronoi = (((one - at) ** 2).sum(axis=1) * far + ((two - at) ** 2).sum(axis=1) * there) / (
-            8 * double
-        )
-        obtuse = np.minimum(there, far) < 0
+        first = corner[(k + 1) % 3]
+        second = corner[(k + 2) % 3]
+        np.add.at(total, faces[:, k], np.cross(n / double[:, None], second - first) / 2)
+        here = ((first - at) * (second - at)).sum(axis=1)
+        at_first = ((at - first) * (second - first)).sum(axis=1)
+        at_second = ((at - second) * (first - second)).sum(axis=1)
+        voronoi = (
+            ((first - at) ** 2).sum(axis=1) * at_second
+            + ((second - at) ** 2).sum(axis=1) * at_first
+        ) / (8 * double)
+        obtuse = np.minimum(at_first, at_second) < 0
         np.add.at(
             area, faces[:, k], np.where(here < 0, double / 4, np.where(obtuse, double / 8, voronoi))
         )

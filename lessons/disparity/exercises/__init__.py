@@ -28,7 +28,7 @@ def cells_verdict(
     got: np.ndarray,
     right: np.ndarray,
     where: np.ndarray | None = None,
-    what: str = "",
+    label: str = "",
     hint: str = VOLUME_HINT,
 ) -> Verdict:
     """Judge costs by the share of wrong cells, per cent, and name the first of them.
@@ -37,7 +37,7 @@ def cells_verdict(
         got: The answer.
         right: The right one.
         where: Which cells are judged; all that have a finite cost where it is not given.
-        what: How the message begins.
+        label: How the message begins.
         hint: What to look at where it is wrong.
     """
     judged = np.isfinite(right) if where is None else where & np.isfinite(right)
@@ -45,11 +45,11 @@ def cells_verdict(
     with np.errstate(invalid="ignore"):
         wrong = judged & ~(np.abs(got - right) <= near)
     if not wrong.any():
-        return full(f"{what}{judged.sum()} of {judged.sum()} costs are right.")
+        return full(f"{label}{judged.sum()} of {judged.sum()} costs are right.")
     d, y, x = (int(i) for i in np.argwhere(wrong)[0])
     first = f"cost[{d}, {y}, {x}] is {against(got[d, y, x], right[d, y, x])}"
-    said = f"{what}{wrong.sum()} of {judged.sum()} costs are wrong; {first}. {hint}"
-    return partial(0.5, said) if wrong.sum() <= 0.05 * judged.sum() else fail(said)
+    message = f"{label}{wrong.sum()} of {judged.sum()} costs are wrong; {first}. {hint}"
+    return partial(0.5, message) if wrong.sum() <= 0.05 * judged.sum() else fail(message)
 
 
 def inner(right: np.ndarray, window: int) -> np.ndarray:

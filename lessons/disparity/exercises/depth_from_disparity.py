@@ -58,13 +58,13 @@ def depth_from_disparity(
 DEPTH_HINT = "Z = f B / d: the nearer, the larger the shift."
 
 
-def depth_verdict(got: np.ndarray, right: np.ndarray, what: str = "") -> Verdict:
+def depth_verdict(got: np.ndarray, right: np.ndarray, label: str = "") -> Verdict:
     """Judge depths by the largest relative error, per cent, and say where it is."""
     off = np.abs(got - right) / right
     i = np.unravel_index(np.argmax(np.where(np.isfinite(off), off, np.inf)), off.shape)
     hint = f"Yours is {against(got[i], right[i], unit='m')}. {DEPTH_HINT}"
     return band(
-        f"{what}largest error" if what else "Largest error",
+        f"{label}largest error" if label else "Largest error",
         100 * float(off[i]),
         "%",
         good=0.01,

@@ -58,21 +58,21 @@ def valleys(seed: int, shape: tuple[int, int, int]) -> tuple[np.ndarray, np.ndar
 
 
 def map_verdict(
-    got: np.ndarray, right: np.ndarray, what: str = "", hint: str = WINNER_HINT
+    got: np.ndarray, right: np.ndarray, label: str = "", hint: str = WINNER_HINT
 ) -> Verdict:
     """Judge disparities by the share of wrong pixels, per cent, and name the first of them."""
     wrong = got != right
     if not wrong.any():
-        return full(f"{what}{wrong.size} of {wrong.size} pixels are right.")
+        return full(f"{label}{wrong.size} of {wrong.size} pixels are right.")
     y, x = (int(i) for i in np.argwhere(wrong)[0])
-    said = f"At (y, x) = ({y}, {x}) yours is {got[y, x]}, right is {right[y, x]}. {hint}"
+    message = f"At (y, x) = ({y}, {x}) yours is {got[y, x]}, right is {right[y, x]}. {hint}"
     return band(
-        f"{what}wrong pixels" if what else "Wrong pixels",
+        f"{label}wrong pixels" if label else "Wrong pixels",
         100 * float(wrong.mean()),
         "%",
         good=0,
         fair=5,
-        hint=said,
+        hint=message,
     )
 
 

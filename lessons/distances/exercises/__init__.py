@@ -12,7 +12,7 @@ GRADERS = HiddenSeed(7019)
 
 
 def values_verdict(
-    got: np.ndarray, right: np.ndarray, hint: str, what: str = "", *, fair: float = 1e-3
+    got: np.ndarray, right: np.ndarray, hint: str, label: str = "", *, fair: float = 1e-3
 ) -> Verdict:
     """Judge numbers by the one that is farthest off, relative to its size: all points up to 1e-6,
     half up to `fair`.
@@ -21,7 +21,7 @@ def values_verdict(
         got: The answer.
         right: The right one, of the same shape; inf where inf is right.
         hint: What to look at where it is wrong.
-        what: How the message begins: the case.
+        label: How the message begins: the case.
         fair: The error up to which half of the points are earned.
     """
     both = np.isinf(right) & (got == right)
@@ -29,8 +29,12 @@ def values_verdict(
     difference = np.abs(np.where(both, 0.0, got) - np.where(both, 0.0, right))
     off = np.where(np.isfinite(difference), difference / size, np.inf)
     if not off.size or off.max() <= 1e-6:
-        return full(f"{what}all {got.size} values are right.")
+        return full(f"{label}all {got.size} values are right.")
     i = int(np.argmax(off))
     wrong = int((off > 1e-6).sum())
-    said = f"{what}{wrong} of {got.size} values are wrong: [{i}] is {against(got[i], right[i])}."
-    return partial(0.5, f"{said} Close. {hint}") if off.max() <= fair else fail(f"{said} {hint}")
+    message = (
+        f"{label}{wrong} of {got.size} values are wrong: [{i}] is {against(got[i], right[i])}."
+    )
+    return (
+        partial(0.5, f"{message} Close. {hint}") if off.max() <= fair else fail(f"{message} {hint}")
+    )

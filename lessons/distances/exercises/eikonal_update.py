@@ -50,9 +50,9 @@ def eikonal_update(a: Values, b: Values, h: float) -> Values:
 HINT = "(a + b + sqrt(2 h^2 - (a - b)^2)) / 2 where |a - b| < h, else min(a, b) + h."
 
 
-def found(candidate: Function, a: np.ndarray, b: np.ndarray, h: float, what: str = "") -> Verdict:
+def found(candidate: Function, a: np.ndarray, b: np.ndarray, h: float, label: str = "") -> Verdict:
     """Judge the updates of some nodes."""
-    return values_verdict(candidate(a, b, h), fast_marching.eikonal_update(a, b, h), HINT, what)
+    return values_verdict(candidate(a, b, h), fast_marching.eikonal_update(a, b, h), HINT, label)
 
 
 def nodes(seed: int, count: int, h: float, apart: float) -> tuple[np.ndarray, np.ndarray, float]:

@@ -66,10 +66,10 @@ def scattered(seed: int, count: int, dims: int) -> tuple[np.ndarray, np.ndarray,
 
 
 def found(
-    candidate: Function, case: tuple[np.ndarray, np.ndarray, np.ndarray], what: str = ""
+    candidate: Function, case: tuple[np.ndarray, np.ndarray, np.ndarray], label: str = ""
 ) -> Verdict:
     """Judge the distances of one case."""
-    return values_verdict(candidate(*case), metrics.mahalanobis(*case), HINT, what)
+    return values_verdict(candidate(*case), metrics.mahalanobis(*case), HINT, label)
 
 
 @check(2)

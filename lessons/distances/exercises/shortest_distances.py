@@ -85,10 +85,10 @@ def network(seed: int, count: int, near: int) -> tuple[np.ndarray, np.ndarray, i
 
 
 def found(
-    candidate: Function, case: tuple[np.ndarray, np.ndarray, int, int], what: str = ""
+    candidate: Function, case: tuple[np.ndarray, np.ndarray, int, int], label: str = ""
 ) -> Verdict:
     """Judge the distances in one graph."""
-    return values_verdict(candidate(*case), geodesics.shortest_distances(*case), HINT, what)
+    return values_verdict(candidate(*case), geodesics.shortest_distances(*case), HINT, label)
 
 
 @check(2)

@@ -216,14 +216,14 @@ def by_cross_products(
     P_first: np.ndarray, P_second: np.ndarray, uv_first: np.ndarray, uv_second: np.ndarray
 ) -> np.ndarray:
     """Takes all six equations of both cross products, point by point."""
-    found = []
+    points = []
     for (u, v), (s, t) in zip(uv_first, uv_second, strict=True):
         first = np.array([[0, -1, v], [1, 0, -u], [-v, u, 0]]) @ P_first
         second = np.array([[0, -1, t], [1, 0, -s], [-t, s, 0]]) @ P_second
         A = np.concatenate([first, second])
         x_h = np.linalg.svd(A / np.linalg.norm(A, axis=1, keepdims=True))[2][-1]
-        found.append(x_h[:3] / x_h[3])
-    return np.array(found)
+        points.append(x_h[:3] / x_h[3])
+    return np.array(points)
 
 
 @alternative
@@ -231,8 +231,8 @@ def with_w_one(
     P_first: np.ndarray, P_second: np.ndarray, uv_first: np.ndarray, uv_second: np.ndarray
 ) -> np.ndarray:
     """Sets w to 1 and solves for the three others."""
-    found = []
+    points = []
     for A in equations(P_first, P_second, uv_first, uv_second):
         A = A / np.linalg.norm(A, axis=1, keepdims=True)
-        found.append(np.linalg.lstsq(A[:, :3], -A[:, 3], rcond=None)[0])
-    return np.array(found)
+        points.append(np.linalg.lstsq(A[:, :3], -A[:, 3], rcond=None)[0])
+    return np.array(points)

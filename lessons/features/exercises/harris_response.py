@@ -57,7 +57,7 @@ def textured(seed: int, h: int, w: int) -> np.ndarray:
     return np.kron(blocks, np.ones((8, 8)))[:h, :w] + rng.normal(0.0, 3.0, (h, w))
 
 
-def judged(candidate: Function, image: np.ndarray, what: str) -> Verdict:
+def judged(candidate: Function, image: np.ndarray, label: str) -> Verdict:
     """Judge by the largest difference, as a share of the largest response."""
     got = candidate(image)
     right = keypoints.harris_response(image)
@@ -67,7 +67,7 @@ def judged(candidate: Function, image: np.ndarray, what: str) -> Verdict:
     share = float(off.max() / max(float(np.abs(right).max()), 1e-12))
     hint = beside(got[at], right[at], HINT, f"The response at row {at[0]}, column {at[1]}")
     return band(
-        f"{what}: largest difference over the largest response",
+        f"{label}: largest difference over the largest response",
         share,
         "",
         good=1e-6,

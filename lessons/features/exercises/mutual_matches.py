@@ -75,18 +75,18 @@ def sets(seed: int, n: int, m: int, d: int, shift: float = 0.6) -> tuple[np.ndar
     return a, rng.permutation(b)
 
 
-def judged(candidate: Function, a: np.ndarray, b: np.ndarray, ratio: float, what: str) -> Verdict:
+def judged(candidate: Function, a: np.ndarray, b: np.ndarray, ratio: float, label: str) -> Verdict:
     """Judge row by row."""
     got = candidate(a, b, ratio)
     right = matching.mutual_matches(a, b, ratio)
     off = np.flatnonzero(got != right)
     if not len(off):
-        return full(f"{what}: all {len(right)} rows are right.")
+        return full(f"{label}: all {len(right)} rows are right.")
     i = int(off[0])
     kept = (
         f"you keep {np.count_nonzero(got >= 0)} matches, right are {np.count_nonzero(right >= 0)}"
     )
-    return fail(f"{what}: {kept}; [{i}] is {int(got[i])}, right is {int(right[i])}. {HINT}")
+    return fail(f"{label}: {kept}; [{i}] is {int(got[i])}, right is {int(right[i])}. {HINT}")
 
 
 @check(2)
@@ -185,14 +185,14 @@ def second_of_the_wrong_set(a: np.ndarray, b: np.ndarray, ratio: float) -> np.nd
 @alternative
 def in_loops(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """One row after the other."""
-    found = []
+    matches = []
     for i, x in enumerate(a):
         d = [float(np.linalg.norm(x - y)) for y in b]
         j = int(np.argmin(d))
         second = min(d[:j] + d[j + 1 :])
         back = int(np.argmin([float(np.linalg.norm(z - b[j])) for z in a]))
-        found.append(j if back == i and d[j] < ratio * second else -1)
-    return np.array(found)
+        matches.append(j if back == i and d[j] < ratio * second else -1)
+    return np.array(matches)
 
 
 @alternative

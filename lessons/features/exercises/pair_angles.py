@@ -78,7 +78,7 @@ def pairs(seed: int, count: int, spread: float = 1.0) -> tuple[np.ndarray, ...]:
     return p_i, n_i, p_j, n_j
 
 
-def judged(candidate: Function, case: tuple[np.ndarray, ...], what: str) -> Verdict:
+def judged(candidate: Function, case: tuple[np.ndarray, ...], label: str) -> Verdict:
     """Judge by the largest difference of an angle; theta of half a turn may be either."""
     got = candidate(*case)
     right = fpfh.pair_angles(*case)
@@ -89,7 +89,7 @@ def judged(candidate: Function, case: tuple[np.ndarray, ...], what: str) -> Verd
     row = int(off.max(axis=1).argmax())
     hint = beside(got[row], right[row], HINT, "(theta, alpha, phi)")
     return band(
-        f"{what}: largest difference", float(off.max()), "", good=1e-6, fair=1e-3, hint=hint
+        f"{label}: largest difference", float(off.max()), "", good=1e-6, fair=1e-3, hint=hint
     )
 
 

@@ -10,7 +10,7 @@ GRADERS = HiddenSeed(8610)
 
 
 def entries(
-    what: str,
+    label: str,
     got: np.ndarray,
     right: np.ndarray,
     hint: str,
@@ -22,7 +22,7 @@ def entries(
     which it is.
 
     Args:
-        what: What the numbers are.
+        label: What the numbers are.
         got: The answer.
         right: The right one.
         hint: What to look at.
@@ -33,14 +33,14 @@ def entries(
     off = np.abs(got - right)
     at = np.unravel_index(int(np.argmax(np.where(np.isfinite(off), off, np.inf))), off.shape)
     where = ", ".join(str(int(k)) for k in at)
-    said = f"Entry [{where}] is {against(float(got[at]), float(right[at]), 4)}."
+    entry = f"Entry [{where}] is {against(float(got[at]), float(right[at]), 4)}."
     if not np.isfinite(off[at]):
-        return fail(f"{what}: {said} {hint}")
+        return fail(f"{label}: {entry} {hint}")
     return band(
-        f"{what}: off by a share of",
+        f"{label}: off by a share of",
         float(off[at]) / size,
         "",
         good=good,
         fair=fair,
-        hint=f"{said} {hint}",
+        hint=f"{entry} {hint}",
     )

@@ -23,7 +23,7 @@ def weighted(seed: int, count: int, chance: float = 0.5) -> np.ndarray:
 
 
 def matrix_verdict(
-    got: np.ndarray, right: np.ndarray, hint: str, what: str = "", *, fair: float = 1e-3
+    got: np.ndarray, right: np.ndarray, hint: str, case: str = "", *, fair: float = 1e-3
 ) -> Verdict:
     """Judge a matrix by its entry that is farthest off: all points up to 1e-6, half up to `fair`.
 
@@ -31,16 +31,18 @@ def matrix_verdict(
         got: The answer.
         right: The right one, of the same shape.
         hint: What to look at where it is wrong.
-        what: How the message begins: the graph.
+        case: How the message begins: the graph.
         fair: The error up to which half of the points are earned.
     """
     off = np.where(np.isfinite(got), np.abs(got - right), np.inf)
     if not off.size or off.max() <= 1e-6:
-        return full(f"{what}all {got.size} entries are right.")
+        return full(f"{case}all {got.size} entries are right.")
     i, j = (int(at) for at in np.unravel_index(int(np.argmax(off)), off.shape))
     wrong = int((off > 1e-6).sum())
-    said = (
-        f"{what}{wrong} of {got.size} entries are wrong: [{i}, {j}] is"
+    message = (
+        f"{case}{wrong} of {got.size} entries are wrong: [{i}, {j}] is"
         f" {against(got[i, j], right[i, j])}."
     )
-    return partial(0.5, f"{said} Close. {hint}") if off.max() <= fair else fail(f"{said} {hint}")
+    return (
+        partial(0.5, f"{message} Close. {hint}") if off.max() <= fair else fail(f"{message} {hint}")
+    )

@@ -72,9 +72,9 @@ HINT = (
 )
 
 
-def found(candidate: Function, given: Inputs, what: str = "") -> Verdict:
+def found(candidate: Function, given: Inputs, case: str = "") -> Verdict:
     """Judge a layer entry by entry."""
-    return matrix_verdict(candidate(*given), graphs.gcn_layer(*given), HINT, what)
+    return matrix_verdict(candidate(*given), graphs.gcn_layer(*given), HINT, case)
 
 
 @check(2)

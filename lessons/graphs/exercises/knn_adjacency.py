@@ -61,7 +61,7 @@ def knn_adjacency(p: Float[np.ndarray, "n d"], k: int) -> Float[np.ndarray, "n n
 HINT = "An edge where i names j or j names i; nobody names itself."
 
 
-def found(candidate: Function, p: np.ndarray, k: int, what: str = "") -> Verdict:
+def found(candidate: Function, p: np.ndarray, k: int, case: str = "") -> Verdict:
     """Judge a graph entry by entry, and say which of its promises it breaks."""
     got = candidate(p, k)
     right = graphs.knn_adjacency(p, k)
@@ -72,7 +72,7 @@ def found(candidate: Function, p: np.ndarray, k: int, what: str = "") -> Verdict
         hint = f"{loops} points are their own neighbours. {HINT}"
     elif lopsided:
         hint = f"{lopsided} entries differ from the transposed ones. {HINT}"
-    return matrix_verdict(got, right, hint, what)
+    return matrix_verdict(got, right, hint, case)
 
 
 @check(2)

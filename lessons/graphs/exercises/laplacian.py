@@ -49,9 +49,9 @@ def laplacian(adjacency: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n n"]:
 HINT = "L = D - A, with the row sums of A on the diagonal of D."
 
 
-def found(candidate: Function, adjacency: np.ndarray, what: str = "") -> Verdict:
+def found(candidate: Function, adjacency: np.ndarray, case: str = "") -> Verdict:
     """Judge a Laplacian entry by entry."""
-    return matrix_verdict(candidate(adjacency), graphs.laplacian(adjacency), HINT, what)
+    return matrix_verdict(candidate(adjacency), graphs.laplacian(adjacency), HINT, case)
 
 
 @check(2)

@@ -91,9 +91,9 @@ def exact_pairs(candidate: Function) -> Verdict:
         rng = np.random.default_rng(STUDENTS + k)
         T = a_motion(rng, degrees)
         p_source = a_cloud(rng)
-        found = candidate(apply(T, p_source), p_source)
+        got = candidate(apply(T, p_source), p_source)
         verdicts.append(
-            motion_verdict(found, T, f"{degrees:g} degrees apart. {ALIGN_HINT}", p=p_source)
+            motion_verdict(got, T, f"{degrees:g} degrees apart. {ALIGN_HINT}", p=p_source)
         )
     return worst(verdicts)
 

@@ -71,22 +71,24 @@ def nearest_found(
     indices, wanted = candidate(p_target, p_source), nearest(p_target, p_source)
     outside = int(((indices < 0) | (indices >= len(p_target))).sum())
     if outside:
-        said = f"{outside} indices are outside 0 to {len(p_target) - 1}"
+        message = f"{outside} indices are outside 0 to {len(p_target) - 1}"
         k = int(np.argmax((indices < 0) | (indices >= len(p_target))))
-        return fail(f"{said}: [{k}] is {indices[k]}, right is {wanted[k]}. {hint}")
+        return fail(f"{message}: [{k}] is {indices[k]}, right is {wanted[k]}. {hint}")
     best = np.linalg.norm(p_target[wanted] - p_source, axis=1)
     more = np.linalg.norm(p_target[indices] - p_source, axis=1) - best
     wrong = int((more > 1e-9).sum())
     if wrong == 0:
         return full(f"All {len(indices)} partners are the nearest.")
     k = int(np.argmax(more))
-    said = (
+    message = (
         f"{wrong} of {len(indices)} partners are not the nearest. [{k}] is {indices[k]}, right is"
         f" {wanted[k]}: "
     )
-    said += f"{number(more[k], 2)} m nearer."
+    message += f"{number(more[k], 2)} m nearer."
     return (
-        partial(0.5, f"{said} {hint}") if wrong <= 0.05 * len(indices) else fail(f"{said} {hint}")
+        partial(0.5, f"{message} {hint}")
+        if wrong <= 0.05 * len(indices)
+        else fail(f"{message} {hint}")
     )
 
 

@@ -115,8 +115,8 @@ def arrived(
                 f" {STEP_HINT}"
             )
     away = motion(off[:3, :3], c + off[:3, 3] - off[:3, :3] @ c)
-    said = f"T_left is the motion that is left after six steps. {STEP_HINT}"
-    return motion_verdict(T @ away, np.eye(4), said, p=p_true, name="T_left")
+    hint = f"T_left is the motion that is left after six steps. {STEP_HINT}"
+    return motion_verdict(T @ away, np.eye(4), hint, p=p_true, name="T_left")
 
 
 @check(1)

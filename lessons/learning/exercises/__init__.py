@@ -11,7 +11,7 @@ STUDENTS = 61
 GRADERS = HiddenSeed(9203)
 
 
-def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "") -> Verdict:
+def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, case: str = "") -> Verdict:
     """Judge numbers by the farthest off, relative to the largest: all points up to 1e-6, half up to
     1e-3.
 
@@ -19,18 +19,20 @@ def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "
         got: The answer.
         right: The right one, of the same shape.
         hint: What to look at where it is wrong.
-        what: How the message begins: the case.
+        case: How the message begins: the case.
     """
     if not right.size:
-        return full(f"{what}nothing went in, and nothing came out.")
+        return full(f"{case}nothing went in, and nothing came out.")
     size = max(float(np.abs(right).max()), 1e-12)
     off = np.where(np.isfinite(got), np.abs(got - right), np.inf) / size
     if off.max() <= 1e-6:
-        return full(f"{what}all {got.size} numbers are right.")
+        return full(f"{case}all {got.size} numbers are right.")
     i = np.unravel_index(int(np.argmax(off)), off.shape)
     place = ", ".join(str(int(k)) for k in i)
     wrong = int((off > 1e-6).sum())
-    said = (
-        f"{what}{wrong} of {got.size} numbers are wrong: [{place}] is {against(got[i], right[i])}."
+    message = (
+        f"{case}{wrong} of {got.size} numbers are wrong: [{place}] is {against(got[i], right[i])}."
     )
-    return partial(0.5, f"{said} Close. {hint}") if off.max() <= 1e-3 else fail(f"{said} {hint}")
+    return (
+        partial(0.5, f"{message} Close. {hint}") if off.max() <= 1e-3 else fail(f"{message} {hint}")
+    )

@@ -57,9 +57,9 @@ def clouds(seed: int, n: int, m: int) -> tuple[np.ndarray, np.ndarray]:
     return rng.normal(size=(n, 3)), rng.normal(size=(m, 3)) * 0.8 + [0.4, 0, 0]
 
 
-def found(candidate: Function, p: np.ndarray, q: np.ndarray, what: str = "") -> Verdict:
+def found(candidate: Function, p: np.ndarray, q: np.ndarray, case: str = "") -> Verdict:
     """Judge all rows by ours."""
-    return entries_verdict(candidate(p, q), shape_distances.chamfer_gradient(p, q), HINT, what)
+    return entries_verdict(candidate(p, q), shape_distances.chamfer_gradient(p, q), HINT, case)
 
 
 @check(2)
@@ -205,7 +205,7 @@ def with_loops(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 def by_two_matrices(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Both assignments as matrices of zeros and ones."""
     D = ((p[:, None] - q[None]) ** 2).sum(axis=2)
-    there = D.argmin(axis=1)[:, None] == np.arange(len(q))
-    back = D.argmin(axis=0)[None] == np.arange(len(p))[:, None]
-    weights = 2 * (there / len(p) + back / len(q))
+    from_p = D.argmin(axis=1)[:, None] == np.arange(len(q))
+    from_q = D.argmin(axis=0)[None] == np.arange(len(p))[:, None]
+    weights = 2 * (from_p / len(p) + from_q / len(q))
     return (weights[:, :, None] * (p[:, None] - q[None])).sum(axis=1)

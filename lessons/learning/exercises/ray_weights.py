@@ -54,10 +54,10 @@ def media(seed: int, rays: int, samples: int) -> np.ndarray:
     return rng.exponential(3.0, (rays, samples)) * (rng.random((rays, samples)) < 0.7)
 
 
-def found(candidate: Function, density: np.ndarray, spacing: float, what: str = "") -> Verdict:
+def found(candidate: Function, density: np.ndarray, spacing: float, case: str = "") -> Verdict:
     """Judge all weights by ours."""
     right = volume_rendering.ray_weights(density, spacing)
-    return entries_verdict(candidate(density, spacing), right, HINT, what)
+    return entries_verdict(candidate(density, spacing), right, HINT, case)
 
 
 @check(2)

@@ -56,9 +56,9 @@ def numbers(seed: int, count: int) -> np.ndarray:
     return rng.normal(size=(count, 6)) * np.exp(rng.normal(size=(count, 1)))
 
 
-def found(candidate: Function, y: np.ndarray, what: str = "") -> Verdict:
+def found(candidate: Function, y: np.ndarray, case: str = "") -> Verdict:
     """Judge all entries by ours."""
-    return entries_verdict(candidate(y), rotation_outputs.rotation_from_six(y), HINT, what)
+    return entries_verdict(candidate(y), rotation_outputs.rotation_from_six(y), HINT, case)
 
 
 @check(2)

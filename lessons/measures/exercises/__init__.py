@@ -19,12 +19,19 @@ TRIANGLE = "np.eye(3), np.array([[0, 1, 2]])"
 
 
 def relative_verdict(
-    what: str, got: float, right: float, hint: str, *, good: float, fair: float, size: float = 0.0
+    quantity: str,
+    got: float,
+    right: float,
+    hint: str,
+    *,
+    good: float,
+    fair: float,
+    size: float = 0.0,
 ) -> Verdict:
     """Judge one number by its relative error, in per cent, and say both numbers.
 
     Args:
-        what: What the number is, as a message begins.
+        quantity: What the number is, as a message begins.
         got: The answer.
         right: The right one.
         hint: What to look at where it is wrong.
@@ -32,11 +39,11 @@ def relative_verdict(
         fair: The same for half of them.
         size: What the error is related to; the right answer where it is not given.
     """
-    said = f"{what}: {against(got, right, 5)}"
+    message = f"{quantity}: {against(got, right, 5)}"
     off = 100 * abs(got - right) / (size or abs(right))
     if off <= good:
-        return full(f"{said}.")
-    return partial(0.5, f"{said}: close. {hint}") if off <= fair else fail(f"{said}. {hint}")
+        return full(f"{message}.")
+    return partial(0.5, f"{message}: close. {hint}") if off <= fair else fail(f"{message}. {hint}")
 
 
 def blob(seed: int, middle: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Mesh:

@@ -73,28 +73,28 @@ def even(count: int, seed: int) -> np.ndarray:
 def weights_of(q: np.ndarray, triangle: np.ndarray) -> np.ndarray:
     """Return the weights of a triangle's corners at points of its plane."""
     a, b, c = triangle
-    found = np.linalg.lstsq(np.stack([b - a, c - a], axis=1), (q - a).T)[0].T
-    return np.column_stack([1 - found.sum(axis=1), found])
+    weights = np.linalg.lstsq(np.stack([b - a, c - a], axis=1), (q - a).T)[0].T
+    return np.column_stack([1 - weights.sum(axis=1), weights])
 
 
-def nothing(what: str, got: float, hint: str) -> Verdict:
+def nothing(quantity: str, got: float, hint: str) -> Verdict:
     """Judge a length that should be 0, up to a thousandth of a millimetre."""
-    return relative_verdict(what, max(got, 0.0), 0.0, hint, good=1e-4, fair=1e-1, size=1.0)
+    return relative_verdict(quantity, max(got, 0.0), 0.0, hint, good=1e-4, fair=1e-1, size=1.0)
 
 
 def share_verdict(
-    what: str, got: np.ndarray, right: np.ndarray, hint: str, good: float, fair: float
+    case: str, got: np.ndarray, right: np.ndarray, hint: str, good: float, fair: float
 ) -> Verdict:
     """Judge shares of points by the largest difference, in per cent of all."""
     k = int(np.abs(got - right).argmax())
-    said = (
-        f"{what}: {100 * got[k]:.1f} % of the points lie in one of the parts, right is"
+    message = (
+        f"{case}: {100 * got[k]:.1f} % of the points lie in one of the parts, right is"
         f" {100 * right[k]:.1f} %"
     )
     off = 100 * abs(got[k] - right[k])
     if off <= good:
-        return full(f"{said}.")
-    return partial(0.5, f"{said}: close. {hint}") if off <= fair else fail(f"{said}. {hint}")
+        return full(f"{message}.")
+    return partial(0.5, f"{message}: close. {hint}") if off <= fair else fail(f"{message}. {hint}")
 
 
 @check(2)

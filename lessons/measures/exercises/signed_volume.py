@@ -58,12 +58,12 @@ def signed_volume(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) ->
 VOLUME_HINT = "V = sum of a . (b x c) / 6 over the faces, signs kept."
 
 
-def volume_verdict(candidate: Function, mesh: Mesh, what: str, hint: str = VOLUME_HINT) -> Verdict:
+def volume_verdict(candidate: Function, mesh: Mesh, case: str, hint: str = VOLUME_HINT) -> Verdict:
     """Judge the volume of a mesh, related to the volumes of all tetrahedra without their signs."""
     parts = tetrahedra(mesh[0], mesh[1], np.zeros(3))
     size = max(float(np.abs(parts).sum()) / 10, abs(float(parts.sum())))
     got = float(candidate(*mesh))
-    return relative_verdict(what, got, float(parts.sum()), hint, good=1e-4, fair=0.1, size=size)
+    return relative_verdict(case, got, float(parts.sum()), hint, good=1e-4, fair=0.1, size=size)
 
 
 @check(2)

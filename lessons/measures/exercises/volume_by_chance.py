@@ -60,14 +60,14 @@ def both(candidate: Function, inside: np.ndarray, box: float) -> Verdict:
     """Judge estimate and error of one call; n - 1 in place of n is as good."""
     value, error = candidate(inside, box)
     right = sampling.volume_by_chance(inside, box)
-    what = f"{int(inside.sum())} of {len(inside)} in {box:g} m³"
+    case = f"{int(inside.sum())} of {len(inside)} in {box:g} m³"
     return worst(
         (
             relative_verdict(
-                f"{what}, estimate", float(value), right[0], SHARE_HINT, good=0.01, fair=0.5
+                f"{case}, estimate", float(value), right[0], SHARE_HINT, good=0.01, fair=0.5
             ),
             relative_verdict(
-                f"{what}, error", float(error), right[1], ERROR_HINT, good=1.0, fair=2.0
+                f"{case}, error", float(error), right[1], ERROR_HINT, good=1.0, fair=2.0
             ),
         )
     )
@@ -80,9 +80,9 @@ def share_of_the_box(candidate: Function) -> Verdict:
     for n, count, box in ((1000, 524, 8.0), (400, 100, 2.0)):
         inside = hits(n, count, STUDENTS)
         value = float(candidate(inside, box)[0])
-        what = f"{count} of {n} in {box:g} m³"
+        case = f"{count} of {n} in {box:g} m³"
         verdicts.append(
-            relative_verdict(what, value, box * count / n, SHARE_HINT, good=0.01, fair=0.5)
+            relative_verdict(case, value, box * count / n, SHARE_HINT, good=0.01, fair=0.5)
         )
     return worst(verdicts)
 

@@ -75,9 +75,9 @@ def scale_verdict(
     """Judge a scale in per cent of the least-squares one."""
     right = alignment.similarity_scale(p_target, p_source)
     got = candidate(p_target, p_source)
-    said = f"Scale {against(got, right, 5)}. {hint}"
+    comparison = f"Scale {against(got, right, 5)}. {hint}"
     return band(
-        "The scale is off by", 100 * abs(got / right - 1), "%", good=0.01, fair=0.2, hint=said
+        "The scale is off by", 100 * abs(got / right - 1), "%", good=0.01, fair=0.2, hint=comparison
     )
 
 

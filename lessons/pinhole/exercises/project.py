@@ -103,11 +103,13 @@ def in_pixels(uv: np.ndarray, right: np.ndarray, hint: str) -> Verdict:
             f"{lost.size} of {seen.sum()} points in front of the camera got no pixel. {told}"
         )
     if (false := np.flatnonzero(~seen & ~unknown)).size:
-        said = (
+        message = (
             f"{false.size} of {(~seen).sum()} points at or behind the camera got a row that is not"
             " NaN."
         )
-        return fail(f"{said} Row {false[0]} is {number(uv[false[0]])}, right is (nan, nan). {hint}")
+        return fail(
+            f"{message} Row {false[0]} is {number(uv[false[0]])}, right is (nan, nan). {hint}"
+        )
     error = float(np.linalg.norm(uv[seen] - right[seen], axis=1).max(initial=0.0))
     return band(
         "Largest pixel error", error, "px", good=0.01, fair=1.0, hint=beside(uv, right, hint)

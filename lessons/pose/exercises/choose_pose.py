@@ -83,8 +83,8 @@ def judged(
         return full(f"The right one of {len(candidates)} poses was chosen.")
     errors = reprojection_errors(np.stack([got, right]), p_world, xy)
     rms = [
-        brief(one, 3) if np.isfinite(one) else "not finite"
-        for one in np.sqrt(np.square(errors).mean(axis=1))
+        brief(error, 3) if np.isfinite(error) else "not finite"
+        for error in np.sqrt(np.square(errors).mean(axis=1))
     ]
     known = np.abs(candidates - got).max(axis=(1, 2)) < 1e-9
     which = f"chose number {int(np.argmax(known))}" if known.any() else "returned something else"

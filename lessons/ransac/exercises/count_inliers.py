@@ -71,14 +71,14 @@ def a_layer(rng: np.random.Generator, n: int = 240) -> tuple[np.ndarray, np.ndar
     return np.append(R[:, 2], -R[:, 2] @ foot), p, signed
 
 
-def count_verdict(got: int, right: int, n: int, what: str, hint: str = COUNT_HINT) -> Verdict:
+def count_verdict(got: int, right: int, n: int, case: str, hint: str = COUNT_HINT) -> Verdict:
     """Judge a count: all for the exact one, half where at most one point in a hundred is too many
     or too few.
     """
     if got == right:
-        return full(f"{what}: {got} of {n} points are inliers.")
-    said = f"{what}: yours is {got} of {n} points, right is {right}. {hint}"
-    return partial(0.5, said) if abs(got - right) <= 0.01 * n else fail(said)
+        return full(f"{case}: {got} of {n} points are inliers.")
+    message = f"{case}: yours is {got} of {n} points, right is {right}. {hint}"
+    return partial(0.5, message) if abs(got - right) <= 0.01 * n else fail(message)
 
 
 @check(2)

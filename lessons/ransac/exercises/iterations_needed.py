@@ -64,18 +64,22 @@ def needed_verdict(
     case = f"{100 * w:g} % inliers, {s} in a sample, {100 * confidence:g} % confidence"
     if got == right:
         return full(f"{case}: {right:.12g} {'sample' if right == 1.0 else 'samples'}.")
-    said = f"{case}: yours is {against(got, right, 12)}."
+    message = f"{case}: yours is {against(got, right, 12)}."
     if got < 1.0:
-        return fail(f"{said} Nobody can do with less than one sample. {hint}")
+        return fail(f"{message} Nobody can do with less than one sample. {hint}")
     if got < right < np.inf:
         spoilt = np.exp(got * np.log1p(-(w**s)))
         allowed = 1.0 - confidence
         if spoilt > 1.01 * allowed:
-            said += (
+            message += (
                 f" After yours all are spoilt in {100 * spoilt:.3g} % of the runs,"
                 f" {100 * allowed:.3g} % is allowed."
             )
-    return partial(0.5, f"{said} Round up.") if abs(got - right) <= 1.0 else fail(f"{said} {hint}")
+    return (
+        partial(0.5, f"{message} Round up.")
+        if abs(got - right) <= 1.0
+        else fail(f"{message} {hint}")
+    )
 
 
 @check(3)

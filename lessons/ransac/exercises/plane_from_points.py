@@ -78,7 +78,7 @@ def a_triangle(rng: np.random.Generator, size: float = 1.0) -> np.ndarray:
     return size * (np.column_stack([sides, np.zeros(3)]) @ R.T + rng.uniform(-1.0, 1.0, 3))
 
 
-def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) -> Verdict:
+def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, case: str) -> Verdict:
     """Judge a plane by its unit normal, up to sign, in degrees, and by its distance to points of
     the right one, in metres.
 
@@ -86,18 +86,18 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
         got: The answer.
         right: The right plane.
         p: Points on it, metres. Distances are judged by how far apart these are.
-        what: How the message begins.
+        case: How the message begins.
     """
     if not np.isfinite(got).all():
-        return fail(f"{what}: yours is {against(got, right)}. {NAN_HINT}")
+        return fail(f"{case}: yours is {against(got, right)}. {NAN_HINT}")
     length = float(np.linalg.norm(got[:3]))
     size = float(np.ptp(p, axis=0).max())
     if abs(length - 1.0) > NO_UNIT:
-        said = (
+        remark = (
             f"The length of your normal is {against(length, 1.0)}: distances come out as many times"
             " as large."
         )
-        return fail(f"{what}: {said}")
+        return fail(f"{case}: {remark}")
     degrees = float(
         np.degrees(
             np.arctan2(np.linalg.norm(np.cross(got[:3], right[:3])), abs(got[:3] @ right[:3]))
@@ -107,7 +107,7 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
     side = np.where(got[:3] @ right[:3] < 0, -right, right)
     told = f"Yours is {against(got, side)} or its negative."
     turned = band(
-        f"{what}: normal off by",
+        f"{case}: normal off by",
         round(degrees, 9),
         "degrees",
         good=0.01,
@@ -117,7 +117,7 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
     unit = 10.0 ** round(np.log10(size))
     away = away if away > 1e-9 * unit else 0.0  # rounding is not worth reading
     moved = band(
-        f"{what}: plane off the points by",
+        f"{case}: plane off the points by",
         away,
         "m",
         good=1e-6 * unit,
@@ -127,18 +127,18 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
     return worst((turned, moved))
 
 
-def found(candidate: Function, p: np.ndarray, what: str) -> Verdict:
+def found(candidate: Function, p: np.ndarray, case: str) -> Verdict:
     """Judge the plane through three points that have one."""
-    return plane_verdict(candidate(p), plane_from_points(p), p, what)
+    return plane_verdict(candidate(p), plane_from_points(p), p, case)
 
 
-def no_plane(got: np.ndarray, what: str) -> Verdict:
+def no_plane(got: np.ndarray, case: str) -> Verdict:
     """Judge the answer to points that have many planes."""
     unknown = int(np.isnan(got).sum())
     if unknown == len(got):
-        return full(f"{what}: four nan.")
-    said = f"{what}: yours is {number(got)}, right is four nan: many planes fit."
-    return partial(0.5, said) if unknown else fail(said)
+        return full(f"{case}: four nan.")
+    message = f"{case}: yours is {number(got)}, right is four nan: many planes fit."
+    return partial(0.5, message) if unknown else fail(message)
 
 
 @check(2)

@@ -16,7 +16,7 @@ GRADERS = HiddenSeed(5179)
 def rows_verdict(
     got: np.ndarray,
     right: np.ndarray,
-    what: Callable[[int], str],
+    label: Callable[[int], str],
     hint: str,
     *,
     good: float = 1e-6,
@@ -28,7 +28,7 @@ def rows_verdict(
     Args:
         got: The answer.
         right: The right one.
-        what: Says what a row is, as a message begins.
+        label: Says what a row is, as a message begins.
         hint: What to look at where it is wrong.
         good: Metres up to which all points are earned.
         fair: The same for half of them.
@@ -38,13 +38,15 @@ def rows_verdict(
     off = np.abs(got - right).reshape(len(right), -1)
     off = np.where(np.isfinite(off), off, np.inf).max(axis=1)
     k = int(off.argmax())
-    said = f"{what(k)}: {written(got[k])}, right is {written(right[k])}"
+    message = f"{label(k)}: {written(got[k])}, right is {written(right[k])}"
     if off[k] <= good:
-        return full(f"{said}.")
-    return partial(0.5, f"{said}: close. {hint}") if off[k] <= fair else fail(f"{said}. {hint}")
+        return full(f"{message}.")
+    return (
+        partial(0.5, f"{message}: close. {hint}") if off[k] <= fair else fail(f"{message}. {hint}")
+    )
 
 
 def written(value: np.ndarray) -> str:
     """Write a number or a point."""
-    numbers = [f"{one:.4g}" for one in np.atleast_1d(value)]
+    numbers = [f"{entry:.4g}" for entry in np.atleast_1d(value)]
     return numbers[0] if len(numbers) == 1 else f"({', '.join(numbers)})"

@@ -75,9 +75,9 @@ def _ordered(candidate: Function, angles: np.ndarray, order: str) -> Verdict:
 @check(2)
 def one_turn(candidate: Function) -> Verdict:
     """A single turn is about the axis of its letter, by the right angle."""
-    one = np.radians(40.0) * np.eye(3)
+    angles = np.radians(40.0) * np.eye(3)
     return worst(
-        _ordered(candidate, one[k], order) for order in ("xyz", "ZYX", "yzx") for k in range(3)
+        _ordered(candidate, angles[k], order) for order in ("xyz", "ZYX", "yzx") for k in range(3)
     )
 
 

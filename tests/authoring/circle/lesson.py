@@ -49,15 +49,13 @@ def setup(params: Input) -> Arc:
 
 
 @traced
-def refine(
-    p: np.ndarray, xyr: np.ndarray, distances: Callable, *, free: int
-) -> Iterator[np.ndarray]:
+def refine(p: np.ndarray, xyr: np.ndarray, apart: Callable, *, free: int) -> Iterator[np.ndarray]:
     """Yield a circle, and circles ever nearer to the points: Gauss-Newton in x, y and maybe r."""
     for _ in range(40):
         yield xyr
         away = (xyr[:2] - p) / np.linalg.norm(xyr[:2] - p, axis=1)[:, None]
         J = np.column_stack([away, -np.ones(len(p))])[:, :free]
-        step = np.linalg.lstsq(J, -distances(p, xyr), rcond=None)[0]
+        step = np.linalg.lstsq(J, -apart(p, xyr), rcond=None)[0]
         xyr = xyr + np.pad(step, (0, 3 - free))
         if np.abs(step).max() < 1e-4:
             return
@@ -72,9 +70,7 @@ def run(params: Input, arc: Arc, *, circle_distances=circle_distances) -> Iterat
 
 
 def draw(look: Look[Input, Arc, np.ndarray]) -> Scene:
-    arc = look.subject
-    now = look.now
-    steps = "radius" if look.params.by_hand else ""
+    arc, now = look.subject, look.now
     off = rms(circle_distances(arc.p, now))
     return {
         "points": Points(polylines.at_height(arc.p), "target", 0.015, name="measured points"),
@@ -83,7 +79,7 @@ def draw(look: Look[Input, Arc, np.ndarray]) -> Scene:
         "radius": RADIUS.scalar(float(now[2]), "radius"),
         "error": RADIUS.scalar(abs(float(now[2] - TRUE[2])), "error", "truth"),
         "cost": COST.whole(RADII, arc.rms, "best circle of each radius"),
-        "cost/now": COST.mark(now[2], off, "this circle", steps=steps),
+        "cost/now": COST.mark(now[2], off, "this circle", steps="radius"),
         "caption": say("Radius {r}, points {off} off (RMS).", r=metres(now[2]), off=metres(off)),
     }
 

@@ -57,10 +57,10 @@ def flat_and_thin(candidate: Function) -> Verdict:
             )
         )
     verdicts = [refused(candidate, np.empty((0, 3)), what="A cloud without points")]
-    for what, p, first in cases:
+    for label, p, first in cases:
         axes = candidate(p)
         verdicts.append(
-            axes_verdict(axes, p, f"{what}. {AXES_HINT}", max(first, 1))
+            axes_verdict(axes, p, f"{label}. {AXES_HINT}", max(first, 1))
             if first
             else frame_only(axes)
         )

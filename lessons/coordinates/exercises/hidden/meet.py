@@ -21,11 +21,11 @@ def other_lines(candidate: Function) -> Verdict:
     """Other lines meet too, and so do single ones, and lines of very small or very large
     numbers.
     """
-    one = lines(GRADERS() + 1, 1)
+    pair = lines(GRADERS() + 1, 1)
     a, b = lines(GRADERS(), 12)
-    found = judged(candidate, *one)
-    if found.share < 1.0:
-        return found
+    verdict = judged(candidate, *pair)
+    if verdict.share < 1.0:
+        return verdict
     scaled = [
         judged(candidate, factor * a, factor * b, f"Any scale is right. {HINT}")
         for factor in (2e-5, 1e7)

@@ -30,12 +30,12 @@ def nearer_the_axis(candidate: Function) -> Verdict:
     has a meaning still.
     """
     polar = np.array([3e-5, 2e-7, *LOST, 2e-10])
-    found = [near(candidate, polar, 2e-3), near(candidate, polar, 2e-3, azimuth=2.4)]
+    above = [near(candidate, polar, 2e-3), near(candidate, polar, 2e-3, azimuth=2.4)]
     p = np.column_stack([np.zeros(6), -0.5 * np.sin(polar), -0.5 * np.cos(polar)])
     short = np.pi - candidate(p)[:, 1]
-    said = [f"A polar angle of π less {numbers(one)} radians" for one in polar]
-    below = row_by_row(said, short, polar, np.abs(short / polar - 1), AXIS, good=1e-4, fair=1e-2)
-    return worst((*found, judged(candidate, p), below))
+    asked = [f"A polar angle of π less {numbers(angle)} radians" for angle in polar]
+    below = row_by_row(asked, short, polar, np.abs(short / polar - 1), AXIS, good=1e-4, fair=1e-2)
+    return worst((*above, judged(candidate, p), below))
 
 
 @check(1, public=False)

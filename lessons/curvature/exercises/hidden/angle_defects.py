@@ -48,13 +48,17 @@ def gauss_bonnet(candidate: Function) -> Verdict:
         p = surfaces.with_noise(mesh, 0.02, np.random.default_rng(GRADERS() + k)).p
         chi = euler_characteristic(mesh.faces)
         total = float(np.degrees(candidate(p, mesh.faces).sum()))
-        what = (
+        comparison = (
             f"On a {name} with noise your sum is {number(total, 6)} degrees, right is {360 * chi}:"
             " error"
         )
-        said = band(what, abs(total - 360 * chi), "degrees", good=0.01, fair=1.0, hint=DEFECT_HINT)
+        verdict = band(
+            comparison, abs(total - 360 * chi), "degrees", good=0.01, fair=1.0, hint=DEFECT_HINT
+        )
         verdicts.append(
-            full("The four sums are 720, 0, 0 and 360 degrees.") if said.share == 1.0 else said
+            full("The four sums are 720, 0, 0 and 360 degrees.")
+            if verdict.share == 1.0
+            else verdict
         )
     return worst(verdicts)
 

@@ -26,7 +26,7 @@ def obtuse_faces(candidate: Function) -> Verdict:
         right = curvature.gaussian_curvature(mesh.p, mesh.faces)
         got = candidate(mesh.p, mesh.faces)
         verdicts.append(
-            curvature_verdict(got, right, hint, good=0.1, fair=5, what=f"{name.capitalize()}: ")
+            curvature_verdict(got, right, hint, good=0.1, fair=5, label=f"{name.capitalize()}: ")
         )
     return worst(verdicts)
 
@@ -46,8 +46,8 @@ def size_and_side(candidate: Function) -> Verdict:
         ("Inside out: ", (p, mesh.faces[:, ::-1].copy()), right),
     )
     return worst(
-        curvature_verdict(candidate(*case), wanted, GAUSSIAN_HINT, good=0.1, fair=5, what=what)
-        for what, case, wanted in cases
+        curvature_verdict(candidate(*case), wanted, GAUSSIAN_HINT, good=0.1, fair=5, label=label)
+        for label, case, wanted in cases
     )
 
 

@@ -19,7 +19,7 @@ from workbench.geometry.meshes import curvature
 def irregular_faces(candidate: Function) -> Verdict:
     """On irregular meshes with obtuse faces the cotangents and areas are right."""
     return worst(
-        _pulled(candidate, irregular(name, GRADERS() + k), what=f"{name.capitalize()}: ")
+        _pulled(candidate, irregular(name, GRADERS() + k), label=f"{name.capitalize()}: ")
         for k, name in enumerate(("torus", "saddle"))
     )
 
@@ -38,9 +38,9 @@ def plane_and_soap_film(candidate: Function) -> Verdict:
             good=good,
             fair=fair,
             size=2.0,
-            what=what,
+            label=label,
         )
-        for what, mesh, good, fair in (("Plane: ", sheet, 0.1, 1), ("Catenoid: ", film, 2, 6))
+        for label, mesh, good, fair in (("Plane: ", sheet, 0.1, 1), ("Catenoid: ", film, 2, 6))
     )
 
 
@@ -60,6 +60,6 @@ def turns_with_the_mesh(candidate: Function) -> Verdict:
         ("Inside out: ", (p, mesh.faces[:, ::-1].copy()), right @ R.T),
     )
     return worst(
-        curvature_verdict(candidate(*case), wanted, NORMAL_HINT, good=0.1, fair=5, what=what)
-        for what, case, wanted in cases
+        curvature_verdict(candidate(*case), wanted, NORMAL_HINT, good=0.1, fair=5, label=label)
+        for label, case, wanted in cases
     )

@@ -53,12 +53,16 @@ def infinite_and_unknown(candidate: Function) -> Verdict:
         got = float(candidate(np.array([d, 10.0]), 500.0, 0.1)[0])
         alone = float(candidate(np.full(3, d), 500.0, 0.1)[1])
         got = next(
-            (one for one in (alone, float(in_a_map)) if not np.isclose(one, right, equal_nan=True)),
+            (
+                depth
+                for depth in (alone, float(in_a_map))
+                if not np.isclose(depth, right, equal_nan=True)
+            ),
             got,
         )
         if not np.isclose(got, right, rtol=1e-6, equal_nan=True):
             wrong.append(f"for d = {number(d)} yours is {number(got)} m, right is {number(right)}")
     if not wrong:
         return full("0 gives inf, nan gives nan, -3.5 and -0.01 give nan, 0.01 gives 5,000 m.")
-    said = "; ".join(wrong).capitalize() + "."
-    return partial((3 - len(wrong)) / 3, said) if len(wrong) < 3 else fail(said)
+    message = "; ".join(wrong).capitalize() + "."
+    return partial((3 - len(wrong)) / 3, message) if len(wrong) < 3 else fail(message)

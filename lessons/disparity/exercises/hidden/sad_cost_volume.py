@@ -23,13 +23,13 @@ def mirrored(candidate: Function) -> Verdict:
     wanted = sad_cost_volume(left, right, 5, 3)
     verdicts = [
         cells_verdict(cost, wanted),
-        cells_verdict(back, wanted, what="Mirrored and mapped back: "),
+        cells_verdict(back, wanted, label="Mirrored and mapped back: "),
     ]
     for largest in (0, 16):
         wanted = sad_cost_volume(left, right, largest, 3)
         verdicts.append(
             cells_verdict(
-                candidate(left, right, largest, 3), wanted, what=f"Shifts up to {largest}: "
+                candidate(left, right, largest, 3), wanted, label=f"Shifts up to {largest}: "
             )
         )
     return worst(verdicts)
@@ -66,7 +66,7 @@ def windows_over_the_border(candidate: Function) -> Verdict:
         wanted = sad_cost_volume(left, right, 4, window)
         verdicts.append(
             cells_verdict(
-                candidate(left, right, 4, window), wanted, what=f"Window {window}: ", hint=hint
+                candidate(left, right, 4, window), wanted, label=f"Window {window}: ", hint=hint
             )
         )
     return worst(verdicts)

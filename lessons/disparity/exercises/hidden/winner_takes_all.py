@@ -71,5 +71,5 @@ def whole_numbers_and_one_slice(candidate: Function) -> Verdict:
         (few, "Equal whole numbers: "),
     )
     return worst(
-        [*(map_verdict(candidate(c), np.argmin(c, axis=0), what) for c, what in cases), single]
+        [*(map_verdict(candidate(c), np.argmin(c, axis=0), label) for c, label in cases), single]
     )

@@ -20,8 +20,10 @@ def units_do_not_matter(candidate: Function) -> Verdict:
     """One axis in millimetres changes no distance, nor do all in kilometres."""
     p, mean, C = scattered(GRADERS() + 20, 8, 2)
     units = np.array([1.0, 1000.0])
-    one = found(candidate, (p * units, mean * units, C * np.outer(units, units)))
-    return worst((one, found(candidate, (1e-3 * p, 1e-3 * mean, 1e-6 * C), "In kilometres: ")))
+    in_millimetres = found(candidate, (p * units, mean * units, C * np.outer(units, units)))
+    return worst(
+        (in_millimetres, found(candidate, (1e-3 * p, 1e-3 * mean, 1e-6 * C), "In kilometres: "))
+    )
 
 
 @check(1, public=False)

@@ -12,10 +12,12 @@ from workbench.exercise.model import number
 def eight_are_enough(candidate: Function) -> Verdict:
     """Eight matches without noise are enough; seven, five and none are not."""
     pair = a_pair(GRADERS() + 1, 8, 0.0)
-    found = judged(candidate, pair, 1e-2, 0.5)
+    verdict = judged(candidate, pair, 1e-2, 0.5)
     few = ((7, "Seven matches"), (5, "Five matches"), (0, "A call without matches"))
-    said = [refused(candidate, pair.uv_first[:n], pair.uv_second[:n], what=what) for n, what in few]
-    return found if found.share < 1 else worst(said)
+    refusals = [
+        refused(candidate, pair.uv_first[:n], pair.uv_second[:n], what=label) for n, label in few
+    ]
+    return verdict if verdict.share < 1 else worst(refusals)
 
 
 @check(3, public=False)

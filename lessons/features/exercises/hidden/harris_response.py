@@ -12,8 +12,8 @@ def other_pictures(candidate: Function) -> Verdict:
     """High, wide and very small pictures, one of noise alone, and one of 16 bits."""
     noise = np.random.default_rng(GRADERS() + 3).normal(128.0, 20.0, (30, 30))
     return worst(
-        judged(candidate, image, what)
-        for image, what in (
+        judged(candidate, image, label)
+        for image, label in (
             (textured(GRADERS(), 64, 24), "64 rows of 24"),
             (textured(GRADERS() + 1, 17, 61), "17 rows of 61"),
             (noise, "Noise"),

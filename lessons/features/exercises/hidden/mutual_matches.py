@@ -20,13 +20,13 @@ def several_ratios(candidate: Function) -> Verdict:
 def crowded(candidate: Function) -> Verdict:
     """Many of one set want the same few of the other, two of them even, or one wants many."""
     rng = np.random.default_rng(GRADERS() + 9)
-    found = [
+    verdicts = [
         judged(candidate, rng.normal(size=(60, 3)), 2.5 * rng.normal(size=(8, 3)), 0.95, "60 and 8")
     ]
     for n, m, d in ((60, 2, 3), (1, 30, 3), (1, 2, 1), (30, 30, 1)):
         a, b = sets(GRADERS() + n + m, n, m, d, 0.3)
-        found.append(judged(candidate, a, b, 0.97, f"{n} and {m}, of {d} numbers"))
-    return worst(found)
+        verdicts.append(judged(candidate, a, b, 0.97, f"{n} and {m}, of {d} numbers"))
+    return worst(verdicts)
 
 
 @check(1, public=False)

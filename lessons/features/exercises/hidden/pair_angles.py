@@ -35,7 +35,7 @@ def one_pair(candidate: Function) -> Verdict:
     normals.
     """
     p_i, n_i, p_j, n_j = pairs(GRADERS() + 2, 1)
-    one = judged(candidate, (p_i, n_i, p_j, -n_j), "One pair")
+    single = judged(candidate, (p_i, n_i, p_j, -n_j), "One pair")
     p_i, n_i, p_j, _ = pairs(GRADERS() + 3, 12)
     n_j = np.where(np.arange(12)[:, None] % 2 == 0, n_i, -n_i)
     first = ((p_j - p_i) * n_i).sum(
@@ -43,4 +43,6 @@ def one_pair(candidate: Function) -> Verdict:
     ) > 0  # the two are equally near: turned by a hair, one is nearer
     n_j = n_j + 1e-3 * np.where(first, -1, 1) * n_j[:, [1, 2, 0]]
     n_j /= np.linalg.norm(n_j, axis=1, keepdims=True)
-    return worst([one, judged(candidate, (p_i, n_i, p_j, n_j), "Normals nearly equal or opposite")])
+    return worst(
+        [single, judged(candidate, (p_i, n_i, p_j, n_j), "Normals nearly equal or opposite")]
+    )

@@ -24,8 +24,8 @@ def other_sizes(candidate: Function) -> Verdict:
     0 the step is 0.
     """
     sizes = ((5, 1, 0.0), (8, 2, 0.3), (40, 5, 2.0), (6, 6, 0.01), (9, 3, 1e-4), (9, 3, 1e5))
-    found = [
+    verdicts = [
         judged(candidate, *problem(GRADERS() + k, n, m), damping)
         for k, (n, m, damping) in enumerate(sizes, 1)
     ]
-    return worst([*found, judged(candidate, np.zeros(8), problem(GRADERS())[1][:8], 0.5)])
+    return worst([*verdicts, judged(candidate, np.zeros(8), problem(GRADERS())[1][:8], 0.5)])

@@ -34,7 +34,7 @@ def moved_clouds(candidate: Function) -> Verdict:
     away = 3.0 * p @ exp_so3(rng.normal(size=3)).T + 1000.0 * rng.normal(size=3)
     cases = [(away, "Moved: "), (rng.permutation(p), "Other order: "), (1e-5 * p, "Tiny: ")]
     cases += [(cloud(GRADERS() + 2 + d, 50, d), f"{d} numbers a point: ") for d in (2, 1, 5)]
-    return worst(found(candidate, q, 5, what) for q, what in cases)
+    return worst(found(candidate, q, 5, case) for q, case in cases)
 
 
 @check(1, public=False)

@@ -43,8 +43,8 @@ def nodes_without_edges(candidate: Function) -> Verdict:
     lonely = weighted(GRADERS() + 20, 7)
     lonely[:, [2, 5]] = lonely[[2, 5]] = 0.0
     none = [
-        found(candidate, np.zeros((n, n)), what)
-        for n, what in ((1, "One node: "), (4, "Four lone nodes: "))
+        found(candidate, np.zeros((n, n)), case)
+        for n, case in ((1, "One node: "), (4, "Four lone nodes: "))
     ]
     large = found(candidate, 1e6 * weighted(GRADERS() + 21, 6), "Weights of a million: ")
     small = 1e-3 * weighted(GRADERS() + 22, 6)

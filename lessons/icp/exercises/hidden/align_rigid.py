@@ -93,14 +93,14 @@ def points_on_a_line(candidate: Function) -> Verdict:
         ("Three pairs", few),
         ("Points at one place", np.tile(few[0], (4, 1))),
     )
-    for what, p_source in cases:
+    for case, p_source in cases:
         got = candidate(apply(T, p_source), p_source)
         p_target = apply(T, p_source)
         moved = apply(got, p_source)
         away = float(np.linalg.norm(moved - p_target, axis=1).max())
         hint = beside(moved[-1], p_target[-1], ALIGN_HINT, "The last point")
-        verdicts.append(motion_verdict(got, got, f"{what}. {ALIGN_HINT}"))
+        verdicts.append(motion_verdict(got, got, f"{case}. {ALIGN_HINT}"))
         verdicts.append(
-            band(f"{what}: largest distance left", away, "m", good=1e-3, fair=2e-2, hint=hint)
+            band(f"{case}: largest distance left", away, "m", good=1e-3, fair=2e-2, hint=hint)
         )
     return worst(verdicts)

@@ -51,10 +51,10 @@ def sliding(candidate: Function) -> Verdict:
     verdicts = [motion_verdict(candidate(p_target, lifted, n_target), right, hint, p=lifted)]
     normal = np.array([[0.6, 0.0, 0.8]])
     place = np.zeros((1, 3))
-    one = motion(np.eye(3), 0.07 * normal[0])
+    shift = motion(np.eye(3), 0.07 * normal[0])
     verdicts.append(
         motion_verdict(
-            candidate(place + 0.07 * normal, place, normal), one, f"One pair. {hint}", p=place
+            candidate(place + 0.07 * normal, place, normal), shift, f"One pair. {hint}", p=place
         )
     )
     walls = np.array(

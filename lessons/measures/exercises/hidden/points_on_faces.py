@@ -27,8 +27,8 @@ def a_whole_surface(candidate: Function) -> Verdict:
     middle = areas @ p[faces].mean(axis=1) / areas.sum()
     size = float(np.linalg.norm(np.ptp(p, axis=0)))
     off = 100 * float(np.linalg.norm(q.mean(axis=0) - middle)) / size
-    what = "Mean of the points off the surface's middle, % of the diagonal"
-    large = relative_verdict(what, off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
+    quantity = "Mean of the points off the surface's middle, % of the diagonal"
+    large = relative_verdict(quantity, off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
     off = (
         float(
             np.linalg.norm(
@@ -38,7 +38,7 @@ def a_whole_surface(candidate: Function) -> Verdict:
         / size
     )
     small = relative_verdict(
-        f"{what}, of a small one", 100 * off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100
+        f"{quantity}, of a small one", 100 * off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100
     )
     return worst((large, small))
 
@@ -78,9 +78,9 @@ def each_number_counts(candidate: Function) -> Verdict:
     does not.
     """
     triangle = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]])
-    one = np.array([[0, 1, 2]])
+    faces = np.array([[0, 1, 2]])
     u = np.array([[0.3, 0.4, 0.2], [0.6, 0.4, 0.2], [0.3, 0.7, 0.2], [0.3, 0.4, 0.6]])
-    q = candidate(triangle, one, u)
+    q = candidate(triangle, faces, u)
     moved = np.linalg.norm(q[1:] - q[0], axis=1)
     for k, name in ((1, "second"), (2, "third")):
         if moved[k] < 1e-3:
@@ -102,14 +102,14 @@ def numbers_at_the_ends(candidate: Function) -> Verdict:
     points.
     """
     triangle = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]])
-    one = np.array([[0, 1, 2]])
-    if len(candidate(triangle, one, np.empty((0, 3)))):
+    faces = np.array([[0, 1, 2]])
+    if len(candidate(triangle, faces, np.empty((0, 3)))):
         return fail("No rows came in, and points went out.")
     u = np.array(
         [[a, b, c] for a in (0.0, 1 - 1e-16) for b in (0.0, 1 - 1e-16) for c in (0.0, 1 - 1e-16)]
     )
-    weights = weights_of(candidate(triangle, one, u), triangle)
-    single = weights_of(candidate(triangle, one, np.array([[0.2, 0.5, 0.3]])), triangle)
+    weights = weights_of(candidate(triangle, faces, u), triangle)
+    single = weights_of(candidate(triangle, faces, np.array([[0.2, 0.5, 0.3]])), triangle)
     off = float(-min(weights.min(), single.min()))
     p = np.concatenate(
         [[[0.0, 0, z], [1, 0, z], [0, 1, z]] for z in range(10)]

@@ -20,15 +20,15 @@ def no_hit_and_no_miss(candidate: Function) -> Verdict:
     verdicts = []
     for inside, right in ((np.zeros(300, bool), 0.0), (np.ones(300, bool), 4.0)):
         value, error = candidate(inside, 4.0)
-        what = "All throws hit" if right else "No throw hits"
+        case = "All throws hit" if right else "No throw hits"
         verdicts.append(
             relative_verdict(
-                f"{what}, estimate", float(value), right, SHARE_HINT, good=0.01, fair=0.5, size=4
+                f"{case}, estimate", float(value), right, SHARE_HINT, good=0.01, fair=0.5, size=4
             )
         )
         verdicts.append(
             relative_verdict(
-                f"{what}, error", float(error), 0.0, ERROR_HINT, good=0.01, fair=0.5, size=4
+                f"{case}, error", float(error), 0.0, ERROR_HINT, good=0.01, fair=0.5, size=4
             )
         )
     return worst(verdicts)

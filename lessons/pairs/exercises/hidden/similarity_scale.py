@@ -35,9 +35,11 @@ def mirror_images(candidate: Function) -> Verdict:
 def far_away(candidate: Function) -> Verdict:
     """Clouds ten kilometres from the origin have the same scale."""
     p_target, p_source = pairs(GRADERS() + 20, 1.7, 0.03)
-    there = np.array([1e4, -3e3, 2e3])
-    here = np.array([-4e3, -9e3, 0.0])
-    return scale_verdict(candidate, p_target + there, p_source + here, f"Far away. {SCALE_HINT}")
+    v_target = np.array([1e4, -3e3, 2e3])
+    v_source = np.array([-4e3, -9e3, 0.0])
+    return scale_verdict(
+        candidate, p_target + v_target, p_source + v_source, f"Far away. {SCALE_HINT}"
+    )
 
 
 @check(1, public=False)
@@ -68,18 +70,18 @@ def no_scale_to_see(candidate: Function) -> Verdict:
     """
     p_target, p_source = pairs(GRADERS() + 30, 1.2)
     verdicts = [refused(candidate, np.empty((0, 3)), np.empty((0, 3)), what="A call without pairs")]
-    for what, q in (
+    for case, q in (
         ("Source points that coincide", np.full(p_target.shape, 0.5)),
         ("A single pair", p_source[:1]),
     ):
-        verdicts.append(scale_verdict(candidate, p_target[: len(q)], q, f"{what}. {SCALE_HINT}"))
+        verdicts.append(scale_verdict(candidate, p_target[: len(q)], q, f"{case}. {SCALE_HINT}"))
     line = np.outer(np.linspace(-1, 1, 7), [0.6, 0.0, 0.8])
-    for what, p, q in (
+    for case, p, q in (
         ("Two pairs", p_target[:2], p_source[:2]),
         ("Three pairs", p_target[:3], p_source[:3]),
         ("Points on a line", 1.4 * line[:, [1, 2, 0]], line + 0.3),
     ):
-        verdicts.append(scale_verdict(candidate, p, q, f"{what}. {SCALE_HINT}"))
+        verdicts.append(scale_verdict(candidate, p, q, f"{case}. {SCALE_HINT}"))
     zero = candidate(np.full(p_source.shape, 0.5), p_source)
     hint = f"Target points that coincide. {SCALE_HINT}"
     verdicts.append(

@@ -29,9 +29,9 @@ def special_cameras(candidate: Function) -> Verdict:
     far = np.array([900.0, -300.0, 400.0])
     T_turned = motion(exp_so3(np.array([0.3, 1.0, -0.6])), far)
     cases = (np.eye(4), motion(np.eye(3), far), motion(np.diag([-1.0, -1.0, 1.0]), far), T_turned)
-    found = [placed(candidate(T), inverse(T)[:3, 3]) for T in cases]
-    right = sum(verdict.share == 1.0 for verdict in found)
-    if right == len(found):
+    verdicts = [placed(candidate(T), inverse(T)[:3, 3]) for T in cases]
+    right = sum(verdict.share == 1.0 for verdict in verdicts)
+    if right == len(verdicts):
         return full(f"All {right} are found.")
-    said = f"{right} of {len(found)} are found. {worst(found).message}"
-    return partial(0.5, said) if right == 3 else fail(said)
+    message = f"{right} of {len(verdicts)} are found. {worst(verdicts).message}"
+    return partial(0.5, message) if right == 3 else fail(message)

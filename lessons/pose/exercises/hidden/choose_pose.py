@@ -61,14 +61,14 @@ def some_points_behind(candidate: Function) -> Verdict:
 @check(2, public=False)
 def of_other_points(candidate: Function) -> Verdict:
     """Other points, noisier, a single pose, many poses, and a single point."""
-    one, p_world, xy = several(GRADERS() + 30)
+    poses, p_world, xy = several(GRADERS() + 30)
     verdicts = [judged(candidate, *several(GRADERS() + 10 + k, 20, 3e-3)) for k in range(8)]
     many, p, seen_at = told_apart(GRADERS() + 31)
     nearest = camera_search.choose_pose(many, p, seen_at)
     last = np.concatenate(
         [many[np.abs(many - nearest).max(axis=(1, 2)) > 0], many + np.eye(4, k=3), nearest[None]]
     )
-    others = ((one[:1], p_world, xy), (last, p, seen_at), (last, p[:1], seen_at[:1]))
+    others = ((poses[:1], p_world, xy), (last, p, seen_at), (last, p[:1], seen_at[:1]))
     return worst([*verdicts, *(judged(candidate, *case) for case in others)])
 
 

@@ -22,8 +22,8 @@ def other_cameras(candidate: Function) -> Verdict:
             T = motion(R, np.array([0.3, -0.2, 0.5]))
             p_world = apply(inverse(T), q)
             distances = np.linalg.norm(q, axis=1)
-            found = candidate(p_world, q / distances[:, None], distances)
-            verdicts.append(motion_verdict(found, T, f"A wide view. {HINT}", p=p_world))
+            got = candidate(p_world, q / distances[:, None], distances)
+            verdicts.append(motion_verdict(got, T, f"A wide view. {HINT}", p=p_world))
     return worst(verdicts)
 
 

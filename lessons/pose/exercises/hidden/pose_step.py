@@ -40,8 +40,8 @@ def from_nearby(candidate: Function, seed: int, *, n: int, flat: bool) -> Verdic
     T = motion(exp_so3(np.array([0.01, -0.012, 0.008])), np.array([0.02, 0.01, -0.03])) @ T_true
     for _ in range(3):
         T = candidate(T, p_world, xy)
-    said = f"T is the pose after three steps with {n} points{' of a plane' if flat else ''}. {HINT}"
-    return motion_verdict(T, T_true, said, p=p_world)
+    hint = f"T is the pose after three steps with {n} points{' of a plane' if flat else ''}. {HINT}"
+    return motion_verdict(T, T_true, hint, p=p_world)
 
 
 @check(1, public=False)
@@ -80,11 +80,11 @@ def each_call_is_one_step(candidate: Function) -> Verdict:
         T_true, p_world, xy, T, _ = a_start(GRADERS() + 50 + k, aside=4.0)
         left.append(farthest(candidate(T, p_world, xy), T_true, p_world))
     if max(left) < 0.02:
-        said = (
+        message = (
             f"One call from 15 degrees away leaves {number(max(left), 2)} m, right is some"
             " decimetres"
         )
         verdicts.append(
-            fail(f"{said}. Return T after a single step: the lesson goes on from there.")
+            fail(f"{message}. Return T after a single step: the lesson goes on from there.")
         )
     return worst(verdicts)

@@ -79,5 +79,5 @@ def rarely_clean(candidate: Function) -> Verdict:
         if error.kind != "result":
             raise
         return fail(f"{error}; right is {number(right)}. {hint}")
-    what = f"1 % inliers, 9 in a sample: yours is {against(got, right)}; off by"
-    return band(what, 100 * abs(got - right) / right, "%", good=1e-4, fair=1.0, hint=hint)
+    start = f"1 % inliers, 9 in a sample: yours is {against(got, right)}; off by"
+    return band(start, 100 * abs(got - right) / right, "%", good=1e-4, fair=1.0, hint=hint)

@@ -43,11 +43,11 @@ def upright_and_through_the_origin(candidate: Function) -> Verdict:
     corner = a_triangle(rng)
     corner[0] = 0.0
     verdicts = [plane_verdict(candidate(wall), np.array([0.8, -0.6, 0.0, -1.0]), wall, "Wall")]
-    for p, what in (
+    for p, case in (
         (through, "A plane through the origin"),
         (corner, "The origin is one of the points"),
     ):
-        verdicts.append(found(candidate, p, what))
+        verdicts.append(found(candidate, p, case))
     for k in range(
         12
     ):  # the planes of the axes, run round either way: two entries of the normal are 0
@@ -99,11 +99,11 @@ def nearly_on_a_line(candidate: Function) -> Verdict:
         p[1, k % 3] = 0.5 * size
         for share in (3e-8, 3e-11):  # of the squared longest side
             p[1, (k + 1) % 3] = share * size
-            what = (
+            case = (
                 f"{size:g} m long, the cross product {share / 1e-9:g} billionths of the squared"
                 " longest side"
             )
             verdicts.append(
-                found(candidate, p, what) if share > 1e-9 else no_plane(candidate(p), what)
+                found(candidate, p, case) if share > 1e-9 else no_plane(candidate(p), case)
             )
     return worst(verdicts)

@@ -38,5 +38,5 @@ def none_and_edges(candidate: Function) -> Verdict:
         np.column_stack([np.ones(8), rng.random(8)]),
     )
     edges = (edge, edge[:, ::-1].copy(), end, end[:, ::-1].copy())
-    found = [verdict(candidate, a_net(rng), uv, "Along an edge") for uv in edges]
-    return worst([verdict(candidate, a_net(rng), edge[:1] + 0.3, "A single place"), *found])
+    verdicts = [verdict(candidate, a_net(rng), uv, "Along an edge") for uv in edges]
+    return worst([verdict(candidate, a_net(rng), edge[:1] + 0.3, "A single place"), *verdicts])

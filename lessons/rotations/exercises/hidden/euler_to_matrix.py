@@ -30,8 +30,8 @@ def all_orders(candidate: Function) -> Verdict:
     right = [order for order, verdict in verdicts.items() if verdict.share == 1.0]
     if len(right) == len(verdicts):
         return full("24 of 24 orders are right.")
-    said = f"{len(right)} of 24 orders are right. {worst(verdicts.values()).message}"
-    return partial(0.5, said) if len(right) >= 16 else fail(said)
+    message = f"{len(right)} of 24 orders are right. {worst(verdicts.values()).message}"
+    return partial(0.5, message) if len(right) >= 16 else fail(message)
 
 
 @check(1, public=False)

@@ -44,11 +44,11 @@ def special_angles(candidate: Function) -> Verdict:
         for v in (0.0, np.pi, -np.pi, 7.5, -8.0, 20.0, -100.0)
     ]
     tiny = degrees_between(candidate(axis, 1e-6), np.eye(3)) / np.degrees(1e-6)
-    said = (
+    hint = (
         f"By 0.000001 radians yours turns by {number(1e-6 * tiny)}, right is 0.000001. {TURN_HINT}"
     )
     kept = band(
-        "Relative error of a tiny angle", abs(tiny - 1.0), "", good=1e-3, fair=1e-1, hint=said
+        "Relative error of a tiny angle", abs(tiny - 1.0), "", good=1e-3, fair=1e-1, hint=hint
     )
     return worst([*verdicts, kept])
 
