@@ -40,9 +40,8 @@ def main() -> int:
     os.environ |= KEEPS_BYTECODE
     keep_freed()
     began = time.monotonic()
-    signal.signal(
-        signal.SIGINT, signal.default_int_handler
-    )  # a shell starts what runs in its background deaf to it
+    # a shell starts what runs in its background deaf to it
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     failed: list[str] = []
     unsteady: list[str] = []
 

@@ -123,9 +123,8 @@ class TestRecord:
         assert why in refused(capsys, "record", FAKE, "-o", tmp_path / place)
 
     def test_a_folder_of_somebody_else_is_said(self, capsys, tmp_path, monkeypatch):
-        monkeypatch.setattr(
-            "workbench.machinery.atomic.os.access", lambda path, mode: False
-        )  # root may write anywhere
+        # root may write anywhere
+        monkeypatch.setattr("workbench.machinery.atomic.os.access", lambda path, mode: False)
         assert "cannot be written to" in refused(capsys, "record", FAKE, "-o", tmp_path / "a.rrd")
 
     @pytest.mark.parametrize("target", ["file", "pipe", "unbuffered pipe"])
@@ -134,9 +133,8 @@ class TestRecord:
             "resource", reason="limits of processes are not set like this here"
         )
         out = tmp_path / "a.rrd"
-        limit = (
-            record(fake.lesson, out).stat().st_size - 4000
-        )  # it fits but for what a buffer keeps to the end
+        # it fits but for what a buffer keeps to the end
+        limit = record(fake.lesson, out).stat().st_size - 4000
         out.write_text("precious")
         words = [FAKE, "-o", str(out) if target == "file" else "-", "--force"]
         with (tmp_path / "pipe").open("wb") as pipe:

@@ -136,9 +136,8 @@ def test_a_command_has_a_name_and_flags_that_exist(page, line, capsys):
     about = [word for word in given[:1] if word in catalog()]  # a lesson has flags of its own
     assert cli.main([name, *about, "--help"]) == 0
     known = capsys.readouterr().out
-    own = any(
-        word.endswith(".py") or "/" in word for word in given[:1]
-    )  # a lesson of the reader's, with fields of its own
+    # a lesson of the reader's, with fields of its own
+    own = any(word.endswith(".py") or "/" in word for word in given[:1])
     for flag in (word.partition("=")[0] for word in words if word.startswith("-")):
         field = own and re.search(
             rf"^    {re.escape(flag[2:].replace('-', '_'))}: Annotated", read(page), re.MULTILINE

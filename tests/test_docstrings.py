@@ -11,9 +11,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 PARTS = [ROOT / "workbench" / part for part in ("geometry", "algorithms")]
 FOUND = sorted(path for part in PARTS for path in part.rglob("[!_]*.py"))
-MODULES = [
-    path for path in FOUND if "import *" not in path.read_text(encoding="utf-8")
-]  # an old name has no text of its own
+# an old name has no text of its own
+MODULES = [path for path in FOUND if "import *" not in path.read_text(encoding="utf-8")]
 
 VERBS = ("Return", "Yield", "Raise", "Write")  # what a function can do for its caller
 

@@ -163,9 +163,8 @@ ALLOWED = {
 OUTSIDE = {"viser": ("workbench.wire",), "rerun": ("workbench.recording",)}
 
 FILES = [*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("*.py")]
-MODULES = sorted(
-    path for path in FILES if "template" not in path.parts
-)  # a lesson to be copied to anywhere
+# a lesson to be copied to anywhere
+MODULES = sorted(path for path in FILES if "template" not in path.parts)
 
 
 def name_of(path: Path) -> str:

@@ -47,9 +47,8 @@ def first_caption(lesson) -> str:
 def test_a_folder_is_loaded_anew_each_time_and_keeps_what_runs(folder):
     before = load(folder)
     stamp = (folder / "draw.py").stat()
-    change(
-        folder / "draw.py", "The algebraic", "THE ALGEBRAIC"
-    )  # as long as before, in the same second
+    # as long as before, in the same second
+    change(folder / "draw.py", "The algebraic", "THE ALGEBRAIC")
     os.utime(folder / "draw.py", ns=(stamp.st_atime_ns, stamp.st_mtime_ns))
     after = load(folder / "lesson.py")
     assert "The algebraic" in first_caption(before)

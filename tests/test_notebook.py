@@ -43,9 +43,8 @@ def test_a_still_picture_and_one_line_stand_where_no_frame_is_shown(shown):
     png = base64.b64decode(shown._repr_mimebundle_()["image/png"])
     with Image.open(io.BytesIO(png)) as still:
         assert (still.format, still.size) == ("PNG", STILL)
-        assert (
-            len(still.convert("RGB").getcolors(1 << 20) or ()) > 20
-        )  # two clouds on white, not an empty ground
+        # two clouds on white, not an empty ground
+        assert len(still.convert("RGB").getcolors(1 << 20) or ()) > 20
     html = re.sub("<iframe.*</iframe>", "", shown._repr_html_())
     assert html.count("data:image/png;base64,") == 1
     assert html.count(f"<p>{HOW_TO_PLAY}</p>") == 1

@@ -140,9 +140,8 @@ def test_a_preset_after_another_is_recorded_as_it_is_alone(name):
         {path: thing for path, thing in scene.items() if in_space(thing)} for scene in opening
     ]
     walk_recorded(in_space_only, list(all_pairs(n)))
-    walk_recorded(
-        opening, [*range(n), *reversed(range(n)), *range(0, n, 2), *range(1, n, 2)]
-    )  # charts take their time
+    # charts take their time
+    walk_recorded(opening, [*range(n), *reversed(range(n)), *range(0, n, 2), *range(1, n, 2)])
 
 
 def test_a_walk_through_all_lessons_shows_each_as_alone(fed):

@@ -65,9 +65,7 @@ def test_every_question_of_the_course_knows_its_wrong_answers(of_course):
     for question in of_course.questions:
         if question.choices:
             silent = [text for i, text in enumerate(question.choices) if not question.reply(i)]
-            assert len(silent) == 1, (
-                question.name,
-                silent,
-            )  # the right one; `validate` holds which it is
+            # the right one; `validate` holds which it is
+            assert len(silent) == 1, (question.name, silent)
         else:
             assert question.wrong, question.name

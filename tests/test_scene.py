@@ -217,9 +217,8 @@ def test_a_verdict_says_what_only_the_truth_shows(right, settled, text, *, tone)
 
 
 def test_a_picture_in_space_knows_where_its_pixels_and_boxes_are():
-    T = np.array(
-        [[1.0, 0, 0, 5], [0, 0, 1, 6], [0, -1, 0, 7], [0, 0, 0, 1]]
-    )  # columns right, rows down, seen along +y
+    # columns right, rows down, seen along +y
+    T = np.array([[1.0, 0, 0, 5], [0, 0, 1, 6], [0, -1, 0, 7], [0, 0, 0, 1]])
     picture = Picture(np.zeros((2, 4), np.uint8), width=8.0, T_world_object=T)
     assert picture.size == (4, 2)
     np.testing.assert_allclose(picture.places(np.array([0.0, 0.0])), [5 - 3, 6, 7 + 1])

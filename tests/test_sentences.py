@@ -28,13 +28,8 @@ BAD = {
 }
 MOST_WORDS = 400  # letters of a caption
 STEPS = 8  # of one run
-RUNS = {
-    "transforms": 30,
-    "rotations": 30,
-    "pinhole": 25,
-    "chamfer_emd": 2,
-    "disparity": 3,
-}  # where a run costs little, or much
+# where a run costs little, or much
+RUNS = {"transforms": 30, "rotations": 30, "pinhole": 25, "chamfer_emd": 2, "disparity": 3}
 FEW = 5  # runs of every other lesson
 SMALL = 400  # the largest number of points or samples drawn, so that a run stays short
 

@@ -162,9 +162,8 @@ def test_another_version_of_the_lesson_goes_on_where_one_is_():
     session.seek(3)
     session.go_on(dataclasses.replace(lesson), session.params)
     assert session.timeline.lesson is not lesson
-    session.go_on(
-        dataclasses.replace(lesson), session.params
-    )  # saved again before a step was known
+    # saved again before a step was known
+    session.go_on(dataclasses.replace(lesson), session.params)
     finish(session)
     look = seen(session)
     assert (look.k, look.params) == (3, Params(angle=30.0))
@@ -253,9 +252,8 @@ def test_reset_and_presets_keep_own_files_and_how_to_read_them(name, files):
         )
     )
     session.reset()
-    assert (
-        session.params == lesson.params()
-    )  # without files nothing is kept, also not how to read them
+    # without files nothing is kept, also not how to read them
+    assert session.params == lesson.params()
 
 
 @pytest.mark.parametrize(("name", "files"), OWN_FILES, ids=[name for name, _ in OWN_FILES])

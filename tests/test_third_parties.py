@@ -24,9 +24,8 @@ OURS = {name: lesson.order for name, lesson in course().items()}
 OUR_EXERCISES = [exercise.name for lesson in course().values() for exercise in exercises_of(lesson)]
 
 
-icp = replace(
-    fake.lesson, name="icp", summary="Not the course's.", order=1
-)  # what entry points below name
+# what entry points below name
+icp = replace(fake.lesson, name="icp", summary="Not the course's.", order=1)
 twin = fake.lesson
 
 LESSON = """

@@ -186,9 +186,8 @@ class _Reader:
     def _told(self, asked: bytes) -> tuple[Any, str | None, tuple[str, ...]] | int:
         """Return the answer of the process, or how it ended without one."""
         process = self._running()
-        late = threading.Timer(
-            4 * allowance().seconds + 10, process.kill
-        )  # on a machine that is busy
+        # on a machine that is busy
+        late = threading.Timer(4 * allowance().seconds + 10, process.kill)
         late.daemon = True
         late.start()
         asking, answers = process.stdin, process.stdout

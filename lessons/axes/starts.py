@@ -18,28 +18,8 @@ from workbench.tracing import untraced
 KEEP = 0.9
 MOST = 150
 TOLERANCE = 1e-5
-ROUNDS = (
-    0,
-    1,
-    2,
-    3,
-    4,
-    5,
-    6,
-    8,
-    10,
-    12,
-    15,
-    20,
-    25,
-    30,
-    40,
-    50,
-    75,
-    100,
-    125,
-    MOST,
-)  # that are shown
+# that are shown
+ROUNDS = (0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50, 75, 100, 125, MOST)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -43,10 +43,8 @@ def measured(
     """Measure a flow where it is, or return what was measured where it has been waiting."""
     if before is not None and before.flow is flow:
         return before
-    near, matching = (
-        nearest_both_ways(flow.p_moving, p_target),
-        best_matching(flow.p_moving, p_target),
-    )
+    near = nearest_both_ways(flow.p_moving, p_target)
+    matching = best_matching(flow.p_moving, p_target)
     now_numbers = numbers(
         flow.p_moving, p_target, near, matching=matching, params=params, measures=measures
     )

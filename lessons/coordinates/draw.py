@@ -47,9 +47,8 @@ AXIS = Segments(
 )
 FLAT = Ellipsoid(1.0, 0.35)  # how flat a planet is drawn
 BALL = sphere(1500)
-PALE = np.tile(
-    np.array([222, 228, 236], np.uint8), (len(BALL.p), 1)
-)  # land and sea: nothing to tell apart
+# land and sea: nothing to tell apart
+PALE = np.tile(np.array([222, 228, 236], np.uint8), (len(BALL.p), 1))
 GRATICULE = graticule(15)
 K = intrinsics(60.0, 31.5, 23.5)
 

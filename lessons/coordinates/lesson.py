@@ -28,20 +28,8 @@ from workbench.lesson import Lesson, Sweep
 
 HEIGHT, SPEED = 10.0, 10.0  # of the passer-by: metres, metres per second
 RANGE, RANGE_SIGMA = 10.0, 0.02  # metres
-TURNS = (
-    40.0,
-    30.0,
-    20.0,
-    10.0,
-    5.0,
-    2.0,
-    1.0,
-    0.5,
-    0.1,
-    0.01,
-    1e-6,
-    0.0,
-)  # degrees between two lines
+# degrees between two lines
+TURNS = (40.0, 30.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1, 0.01, 1e-6, 0.0)
 STOPS = np.array([0.0, 1.0, 3.0, 7.0])
 
 

@@ -31,9 +31,8 @@ TOPS = {"left": 1.08, "right": 0.5}
 TALL = 0.42  # of a strip
 CHART = (-0.95, 0.85)  # where the cost 0 is, and how high the largest is drawn
 LAYER = 0.006
-FULL = (
-    40.0  # grey levels a pixel: a window that differs by less is drawn lower than the full height
-)
+# grey levels a pixel: a window that differs by less is drawn lower than the full height
+FULL = 40.0
 DOT = 0.02
 BLOCK = 12  # pixels in which a pixel of a strip is drawn, so that it stays sharp
 # columns that are shown left of the last partner, and right of the pixel

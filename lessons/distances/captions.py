@@ -11,10 +11,9 @@ from workbench.certain import sure
 from workbench.numerals import brief, counted, fixed, length, percent
 from workbench.scene import Caption
 
-GOOD, BAD = (
-    0.02,
-    0.06,
-)  # mean sizes of the relative error: up to the one it is right, above the other wrong
+# mean sizes of the relative error: up to the one it is right, above the other wrong
+GOOD = 0.02
+BAD = 0.06
 # edges of negative weight per vertex, a tenth of all edges: from there on they are named as a cause
 MANY = 0.3
 BALLS = {

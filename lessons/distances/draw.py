@@ -17,9 +17,8 @@ from workbench.scene import Classes, Color, Field, Label, Mesh, Points, Primitiv
 
 MOST_EDGES, MOST_ARROWS = 2500, 900
 SQUARE = np.array([-HALF, -HALF]), np.array([HALF, HALF])
-AHEAD = np.array(
-    [0.0, -4.0]
-)  # the stereo camera's landmarks lie 4 to 6 m ahead of it: shown about the origin
+# the stereo camera's landmarks lie 4 to 6 m ahead of it: shown about the origin
+AHEAD = np.array([0.0, -4.0])
 
 
 def draw(state: State) -> Scene:

@@ -106,9 +106,8 @@ def outline(params: Params, centre: np.ndarray, radius: float) -> np.ndarray:
         return np.stack([ends[0], np.zeros(2), ends[1]])
     rays = circle(360)
     reach = distance_in(params, params.metric)(rays, np.zeros(2))
-    power = {"squared": 2.0, "p-sum": params.p}.get(
-        params.metric, 1.0
-    )  # how the distance grows along a ray
+    # how the distance grows along a ray
+    power = {"squared": 2.0, "p-sum": params.p}.get(params.metric, 1.0)
     return centre + rays * ((radius / reach) ** (1 / power))[:, None]
 
 
@@ -135,9 +134,8 @@ def tried(distance: Distance, rng: np.random.Generator) -> Iterator[Trials]:
         a, b, c = rng.random((3, TRIPLES, 2))
         excess, sides = metrics.triangle_excess(distance, a, b, c=c)
         broken += int((excess > 1e-9).sum())
-        along = a * rng.uniform(
-            0.2, 0.9, (TRIPLES, 1)
-        )  # other points on the same ray from the origin
+        # other points on the same ray from the origin
+        along = a * rng.uniform(0.2, 0.9, (TRIPLES, 1))
         counts += [
             (np.abs(distance(a, a)) > 1e-9).sum(),
             (distance(a, along) <= 1e-9).sum(),

@@ -31,19 +31,17 @@ from workbench.scene import Camera, Label, Mesh, Picture, Points, Primitive, Rol
 VIEW = View(
     eye=(14.0, -16.0, 11.0), target=(0.5, 5.0, 5.2), fov_degrees=34.0, grid=None, axes=False
 )
-WIDTH, APART, ABOVE = (
-    8.6,
-    0.35,
-    2.3,
-)  # of a picture, between both, and their middle above the target, metres
+# of a picture, between both, and their middle above the target, metres
+WIDTH = 8.6
+APART = 0.35
+ABOVE = 2.3
 LAYER = 0.04  # metres from a picture to what is drawn on it
 SHOWN_LINES, SHOWN_ELLIPSOIDS, SHOWN_POINTS = 8, 10, 400
 DEEP, REACH = 14.0, 45.0  # metres that a ray is drawn, and from the first camera that anything is
 SCALE_AT = np.array([-0.4, 0.5, 0.2])  # of a model
-CLOSE, POINTER = (
-    0.3,
-    1.8,
-)  # metres between cameras, drawn, below which a pointer tells the direction; and its length
+# metres between cameras, drawn, below which a pointer tells the direction; and its length
+CLOSE = 0.3
+POINTER = 1.8
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,9 +134,8 @@ def _pictures(state: State) -> dict[str, Primitive]:
     views = state.views
     sides = _sides(state)
     scene: dict[str, Primitive] = {}
-    kind = (
-        "picture" if _rectifying(state) is None else "rectified"
-    )  # in a rectified one nobody picks a pixel
+    # in a rectified one nobody picks a pixel
+    kind = "picture" if _rectifying(state) is None else "rectified"
     roles: tuple[tuple[str, Role], ...] = (("first", "target"), ("second", "source"))
     for k, (word, role) in enumerate(roles):
         picture = sides[k].picture

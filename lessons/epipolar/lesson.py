@@ -33,9 +33,8 @@ from workbench.geometry.two_views.homography import normalising_similarity
 from workbench.knobs import called
 from workbench.lesson import Lesson, Sweep
 
-DEPTHS = np.array(
-    [3.0, 4.0, 6.0, 8.0, 12.0, np.inf]
-)  # metres along the ray of the followed pixel, as they are drawn
+# metres along the ray of the followed pixel, as they are drawn
+DEPTHS = np.array([3.0, 4.0, 6.0, 8.0, 12.0, np.inf])
 
 
 def run(
@@ -50,9 +49,8 @@ def run(
     """
     views = views_of(params)
     w, h = views.sizes[0]
-    believed = np.array(
-        [1 + params.f_error / 100, 1 + params.f_error / 100, 1.0]
-    )  # of the columns of K
+    # of the columns of K
+    believed = np.array([1 + params.f_error / 100, 1 + params.f_error / 100, 1.0])
     length = shown_length(views)
     T = views.T_second_first
     if T is not None and np.any(T[:3, 3]):

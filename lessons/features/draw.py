@@ -12,18 +12,15 @@ from workbench.geometry.motions.alignment import rmse
 from workbench.geometry.polylines import between
 from workbench.scene import Chart, Color, Field, Label, Points, Primitive, Scene, Segments
 
-T_BESIDE = motion(
-    np.eye(3), np.array([1.0, 0.0, 0.0])
-)  # where the source is shown until a motion is found
+# where the source is shown until a motion is found
+T_BESIDE = motion(np.eye(3), np.array([1.0, 0.0, 0.0]))
 MOST_NORMALS = 500
 MOST_LINES = 400
 NORMAL = 0.05
 BARS = Chart("Descriptor of the picked point", "bar: 11 of θ, 11 of α, 11 of φ", "%")
-SHARE, TURN, DISTANCE = (
-    Chart("Right matches", unit="%"),
-    Chart("Rotation error", unit="deg"),
-    Chart("Distance", unit="m"),
-)
+SHARE = Chart("Right matches", unit="%")
+TURN = Chart("Rotation error", unit="deg")
+DISTANCE = Chart("Distance", unit="m")
 PLACE = np.arange(3.0 * BINS)
 
 

@@ -33,11 +33,8 @@ CONFIDENCE = 0.999
 FEWEST_AGREE = 6  # three matches agree with the motion that was made of them, whatever they are
 MOST_FITS, SHOWN_FITS = 60, 6
 SALIENT = 0.5  # of the radius: the neighbourhood in which a keypoint is salient
-OURS = (
-    0.17,
-    0.09,
-    0.68,
-)  # the tip of the built-in rabbit's upright ear, target frame: described unless one is picked
+# the tip of the built-in rabbit's upright ear, target frame: described unless one is picked
+OURS = (0.17, 0.09, 0.68)
 
 
 def scan_steps(

@@ -89,11 +89,9 @@ def _walked(state: State, walked: Walked) -> Caption:
 
 def _stopped(state: State, descent: Descent) -> Caption:
     assert descent.stop is not None
-    scale, least, straight = (
-        state.subject.scale,
-        state.subject.least_cost,
-        state.subject.straight_cost,
-    )
+    scale = state.subject.scale
+    least = state.subject.least_cost
+    straight = state.subject.straight_cost
     after = counted(descent.iteration, "iteration")
     if descent.stop in (Stop.SINGULAR, Stop.DIVERGED):
         radius = radius_of(state, descent.unknown)

@@ -12,11 +12,10 @@ from workbench.geometry.shapes.circles_spheres import costs_of_centers
 from workbench.scene import Points, Primitive, Segments
 
 REACH = 4.5  # metres from the origin that circles and centres are drawn
-FINEST, COARSEST, MOST_DISTANCES = (
-    161,
-    61,
-    4_000_000,
-)  # points of the grid to a side; distances computed for it
+# points of the grid to a side; distances computed for it
+FINEST = 161
+COARSEST = 61
+MOST_DISTANCES = 4_000_000
 # at most, and from one to the next
 LINES = 10
 FACTOR = 2.0
@@ -65,9 +64,8 @@ def _contours(p: bytes) -> Segments:
         side, side
     )
     levels = costs.max() / FACTOR ** np.arange(0.5, LINES)
-    ends = level_lines(
-        np.sqrt(costs), np.sqrt(levels), np.full(2, -REACH), spacing=x[1] - x[0]
-    )  # it is straighter
+    # it is straighter
+    ends = level_lines(np.sqrt(costs), np.sqrt(levels), np.full(2, -REACH), spacing=x[1] - x[0])
     return Segments(
         at_height(ends, -HEIGHT), "neutral", 1.0, opacity=0.7, name="equally good centres"
     )

@@ -15,10 +15,9 @@ from workbench.geometry.shapes.algebraic_fits import ALGEBRAIC, fit_algebraic
 from workbench.geometry.shapes.lines_planes import fit_hyperplane, line_angle, regression_line
 
 NINETY = 1.645  # standard deviations to each side that hold 90 % of normal errors
-HOME, AWAY = (
-    1e-2,
-    50.0,
-)  # metres: so near the best fit a start came home, and with such a radius it will not
+# metres: so near the best fit a start came home, and with such a radius it will not
+HOME = 1e-2
+AWAY = 50.0
 Fate = Literal["comes home", "away or lost", "under way"]
 FATES: tuple[Fate, ...] = get_args(Fate)
 

@@ -16,12 +16,10 @@ from workbench.scene import Chart, Field, Picture, Primitive, Table
 LARGEST = 120  # pixels of a picture of a matrix
 FLOOR = 1e-16
 ROWS = 12
-HEAT, LOSS, COMPONENTS, CONDUCTANCE = (
-    Chart("Heat"),
-    Chart("Loss"),
-    Chart("Components"),
-    Chart("Conductance"),
-)
+HEAT = Chart("Heat")
+LOSS = Chart("Loss")
+COMPONENTS = Chart("Components")
+CONDUCTANCE = Chart("Conductance")
 DEGREES = Chart("Degrees", "neighbours", "nodes")
 ONE_WAY = Chart("One-way", unit="%")
 OF_A, OF_L = Chart("Eigenvalues of A", "number"), Chart("Eigenvalues of L", "number")
@@ -96,9 +94,8 @@ def _blocks(matrix: Sparse) -> np.ndarray:
     size = -(-n // LARGEST)
     side = -(-n // size)
     values = np.zeros(side * side)
-    order = np.argsort(
-        np.abs(entries.data), kind="stable"
-    )  # the largest of a block is written last, and stays
+    # the largest of a block is written last, and stays
+    order = np.argsort(np.abs(entries.data), kind="stable")
     values[((entries.row // size) * side + entries.col // size)[order]] = entries.data[order]
     return values.reshape(side, side)
 

@@ -141,9 +141,8 @@ def matrices(laplacian: Laplacian, count: int) -> Iterator[Matrix]:
     yield Matrix(part="laplacian", laplacian=laplacian, shown=L, order=as_numbered)
     yield Matrix(part="applied", laplacian=laplacian, shown=L, order=as_numbered)
     _, fiedler = laplacian.second()
-    order = np.argsort(
-        fiedler, kind="stable"
-    )  # nodes that are joined have similar values, and come to stand together
+    # nodes that are joined have similar values, and come to stand together
+    order = np.argsort(fiedler, kind="stable")
     yield Matrix(part="ordered", laplacian=laplacian, shown=L[order][:, order], order=order)
 
 

@@ -175,9 +175,8 @@ def _landscape(look: Look[Input, Outlines, State], shown: float) -> dict[str, Pr
         ball = COST.mark(shown, MM * state.rmse, "ball", steps="angle")
         return parts | {"cost/ball": ball}
     q = lines.p_target[state.partners]
-    x = np.union1d(
-        HAND, best_turn(q, lines.p_source)
-    )  # its lowest point is computed, not looked up
+    # its lowest point is computed, not looked up
+    x = np.union1d(HAND, best_turn(q, lines.p_source))
     frozen = cost_of_pairs(q, lines.p_source, x)
     return parts | {
         "cost/frozen": COST.second(x, MM * frozen, "partners frozen"),

@@ -60,12 +60,8 @@ def _told(state: State) -> tuple[str, float, float, float]:
                     f"{done}, a sphere: it has one piece, no hole and no border, and keeps that."
                     f" {kind}. What will it do?"
                 )
-            return (
-                text,
-                fit.folded,
-                SMOOTH if fit.farthest <= WHOLE else -1.0,
-                CRUMPLED,
-            )  # never good without its ears
+            # never good without its ears
+            return (text, fit.folded, SMOOTH if fit.farthest <= WHOLE else -1.0, CRUMPLED)
         case Classified(), Clouds():
             plain, changed = shares_right(fit, about)
             if fit.updates == 0:

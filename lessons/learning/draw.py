@@ -44,11 +44,8 @@ GAP = 2.3
 STRIP = 6
 LIFT = np.array([0.0, 0.0, 0.02])
 BESIDE = np.eye(4)
-BESIDE[:3, 3] = (
-    1.0,
-    0.7,
-    0.0,
-)  # m, to the right as the meshes are seen: where the true surface stands
+# m, to the right as the meshes are seen: where the true surface stands
+BESIDE[:3, 3] = (1.0, 0.7, 0.0)
 UNIT = at_height(circle())
 
 
@@ -88,9 +85,8 @@ def _angle(params: Params, about: Turns, fit: Regressed) -> dict[str, Primitive]
     a = np.arctan2(fit.R[:, 1, 0], fit.R[:, 0, 0])
     put = 1.12 * np.column_stack([np.cos(a), np.sin(a), 0 * a])
     k = params.picked % len(put)
-    nearest = (
-        about.degrees + (np.degrees(a) - about.degrees + 180) % 360 - 180
-    )  # of all angles that mean the same
+    # of all angles that mean the same
+    nearest = about.degrees + (np.degrees(a) - about.degrees + 180) % 360 - 180
     told = np.degrees(fit.outputs[:, 0]) if params.angle == "one number" else nearest
     return _errors(fit) | {
         "circle": Segments(segments(UNIT), "neutral", 1.0),
@@ -200,9 +196,8 @@ def _clouds(params: Params, classified: Classified, about: Clouds) -> dict[str, 
         scene[f"clouds/{name}"] = Points(
             p + np.array([x, 0.0, 0.0]), color, 0.065, name="points" if k == 0 else ""
         )
-        at = np.array(
-            [x, 0.0, 1.5 + 0.65 * (k % 2)]
-        )  # in two rows: on a phone they would lie on each other
+        # in two rows: on a phone they would lie on each other
+        at = np.array([x, 0.0, 1.5 + 0.65 * (k % 2)])
         scene[f"said/{name}"] = Label(
             name if right else f"{name} → {said(classified, k)}", at, "truth" if right else "wrong"
         )

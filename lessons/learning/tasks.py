@@ -33,10 +33,8 @@ UPDATES: Mapping[Task, int] = {
     "field": 225,
 }
 STEPS = 16
-NETWORKS = {
-    "angle": (32, 4e-3),
-    "rotation": (64, 1.2e-2),
-}  # numbers in a hidden layer, first step of Adam
+# numbers in a hidden layer, first step of Adam
+NETWORKS = {"angle": (32, 4e-3), "rotation": (64, 1.2e-2)}
 TURNS, SET, CLOUD, TESTS, PIXELS = 181, 48, 32, 20, 64
 RADII = (0.5, 1.5)  # of the circles that a set of points is shown, m
 # of meshes: vertices, points given and of the truth, radius (m)

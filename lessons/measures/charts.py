@@ -43,10 +43,8 @@ def beside(state: State) -> dict[str, Primitive]:
 def _running(state: State, volume: float, area: float) -> dict[str, Primitive]:
     subject = state.subject
     scene = dict[str, Primitive]()
-    volumes, areas = (
-        Chart("Volume", unit=f"{subject.unit}³"),
-        Chart("Area", unit=f"{subject.unit}²"),
-    )
+    volumes = Chart("Volume", unit=f"{subject.unit}³")
+    areas = Chart("Area", unit=f"{subject.unit}²")
     if np.isfinite(subject.volume):
         scene["volume"] = volumes.scalar(volume, "volume")
         scene["true volume"] = volumes.scalar(subject.volume, "truth", "truth")
@@ -108,11 +106,9 @@ def _by_chance(
 ) -> dict[str, Primitive]:
     sums = Chart(f"{quantity} by {drawn}", f"log₁₀ {drawn}", unit)
     off_by = Chart(f"Error by {drawn}", f"log₁₀ {drawn}", "log₁₀ error (%)")
-    x, values, errors = (
-        np.log10(estimates.counts),
-        np.array(estimates.values),
-        np.array(estimates.errors),
-    )
+    x = np.log10(estimates.counts)
+    values = np.array(estimates.values)
+    errors = np.array(estimates.errors)
     expected = np.where(errors > 0, errors, np.nan) / true
     return {
         "estimate": sums.curve(x, values, "estimate"),

@@ -11,9 +11,8 @@ from workbench.algorithms.surfaces.monte_carlo import OnFaces, sample_faces
 from workbench.geometry.meshes import face_areas
 from workbench.geometry.meshes.measures import area_centroid
 
-TRIANGLE = np.array(
-    [[-1.0, 0.0, -0.6], [1.0, 0.0, -0.6], [0.0, 0.0, 1.1]]
-)  # upright, before the eye
+# upright, before the eye
+TRIANGLE = np.array([[-1.0, 0.0, -0.6], [1.0, 0.0, -0.6], [0.0, 0.0, 1.1]])
 IN_TRIANGLE = (50, 200, 800, 3200)
 
 

@@ -162,9 +162,8 @@ def degrees_off(states: States) -> float:
 
 def valleys(states: States) -> int:
     """Return how many angles have a lower RMSE than both of their neighbours, once around."""
-    rmse = np.array([as_a(Held, state).rmse for state in states])[
-        :-1
-    ]  # the last is the first again
+    # the last is the first again
+    rmse = np.array([as_a(Held, state).rmse for state in states])[:-1]
     return int(np.sum((rmse < np.roll(rmse, 1)) & (rmse <= np.roll(rmse, -1))))
 
 

@@ -107,17 +107,15 @@ def follow(
     state = replace(state, stage="camera", p_camera=p_camera)
     yield state
 
-    xy = off_pixels(
-        project(p_world, T_camera_world, K), K
-    )  # (X / Z, Y / Z) (6.2), K taken off again
+    # (X / Z, Y / Z) (6.2), K taken off again
+    xy = off_pixels(project(p_world, T_camera_world, K), K)
     state = replace(state, stage="divide", xy=xy)
     yield state
 
     seen = is_invertible(xy, lens)  # a folded point would look valid
     xy_bent = np.full_like(xy, np.nan)
-    xy_bent[seen] = distort(
-        xy[seen], lens.k1, lens.k2, lens.p1, lens.p2
-    )  # (7.6), with tangential terms
+    # (7.6), with tangential terms
+    xy_bent[seen] = distort(xy[seen], lens.k1, lens.k2, lens.p1, lens.p2)
     state = replace(state, stage="distort", xy_bent=xy_bent)
     yield state
 
@@ -126,9 +124,8 @@ def follow(
     yield state
 
     xy_back = undistort(off_pixels(uv, K), lens)
-    v_camera = np.column_stack(
-        [xy_back, np.ones(len(xy_back))]
-    )  # one metre of depth along each ray
+    # one metre of depth along each ray
+    v_camera = np.column_stack([xy_back, np.ones(len(xy_back))])
     p_center = camera_center(T_camera_world)  # C = -R^T t (6.7)
     z = p_camera[:, 2] if depth is None else depth
     p_back = p_center + z[:, None] * (v_camera @ T_camera_world[:3, :3])  # rows: v R is R^T v

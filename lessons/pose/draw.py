@@ -63,10 +63,8 @@ LOOKS: dict[Target, Look] = {
 ENLARGED = 10
 SMALL = 4.0
 QUARTIC = Chart("Quartic", "v = s₃ / s₁", "scaled")
-PICTURE_ERROR, TURN_ERROR = (
-    Chart("RMS error in the picture", unit="px"),
-    Chart("Rotation error", unit="°"),
-)
+PICTURE_ERROR = Chart("RMS error in the picture", unit="px")
+TURN_ERROR = Chart("Rotation error", unit="°")
 CENTRE_ERROR = Chart("Error of the centre", unit="m")
 TURNS = Chart("Rotation errors in other pictures", "degrees", "pictures")
 ANEW = Chart("Random cameras, as many points", "degrees", "% within")

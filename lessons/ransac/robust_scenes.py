@@ -177,10 +177,8 @@ def match_scene(
         p_second = rays * depth[:, None] @ T_second_first[:3, :3].T + T_second_first[:3, 3]
         seen = transform_pixels(_K, p_second[:, :2] / p_second[:, 2:])
         kept = (p_second[:, 2] > 0.0) & (seen >= 0.0).all(1) & (seen <= size - 1.0).all(1)
-        uv_first, uv_second = (
-            np.concatenate([uv_first, uv[kept]]),
-            np.concatenate([uv_second, seen[kept]]),
-        )
+        uv_first = np.concatenate([uv_first, uv[kept]])
+        uv_second = np.concatenate([uv_second, seen[kept]])
     p_true = np.concatenate([uv_first, uv_second], axis=1)[:inliers]
     wrong = rng.uniform(0.0, np.tile(size - 1.0, 2), (outliers, 4))
     truth = fundamental_from_cameras(_K, _K, T_second_first)

@@ -142,10 +142,8 @@ def test_cauchy_is_scipys_loss_and_lets_far_corners_go():
 
 def test_what_the_views_do_not_determine_has_no_covariance_or_a_huge_one():
     T = np.stack([np.eye(4)] * 2)
-    T[:, :3, 3] = [
-        [-0.1, -0.06, 0.4],
-        [-0.1, -0.06, 0.6],
-    ]  # two boards, both frontal: f is anybody's guess
+    # two boards, both frontal: f is anybody's guess
+    T[:, :3, 3] = [[-0.1, -0.06, 0.4], [-0.1, -0.06, 0.6]]
     uv = np.stack([project(P, T_camera_board, boards.K_TRUE) for T_camera_board in T])
     uv += 0.2 * np.random.default_rng(0).standard_normal(uv.shape)
     adjustment = last_of(uv, T, coefficients=0, max_iterations=30)
@@ -202,9 +200,8 @@ def test_what_is_known_of_the_real_cameras(real):
         assert dict(zip(SHARED, adjustment.deviations, strict=True))["fx"] == pytest.approx(
             0.93, abs=0.01
         )
-        assert adjustment.K[0, 0] == pytest.approx(
-            535.9, abs=0.5
-        )  # left_intrinsics.yml, which has fx = fy
+        # left_intrinsics.yml, which has fx = fy
+        assert adjustment.K[0, 0] == pytest.approx(535.9, abs=0.5)
         np.testing.assert_allclose(adjustment.K[:2, 2], [342.3, 235.6], atol=0.3)
     else:
         assert rms == pytest.approx(0.4587, abs=1e-4)

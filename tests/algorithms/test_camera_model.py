@@ -82,11 +82,8 @@ def alike(state: State, other: State) -> bool:
 )
 def test_many_samples_solved_together_give_the_states_of_one_by_one(seed, outliers, most):
     _, table = rows(seed, outliers)
-    table[:6, :3] = np.arange(6)[:, None] * [
-        0.1,
-        0.2,
-        0.3,
-    ]  # samples of three of these are degenerate
+    # samples of three of these are degenerate
+    table[:6, :3] = np.arange(6)[:, None] * [0.1, 0.2, 0.3]
     model = camera_model(K)
     runs = []
     for variant in (model, replace(model, solve_each=None)):

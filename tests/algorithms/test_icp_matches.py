@@ -23,10 +23,8 @@ class TestNearest:
             np.testing.assert_array_equal(nearest(p_target, p_source), expected)
 
     def test_it_is_not_symmetric(self):
-        p_target, p_source = (
-            np.array([[0.0, 0, 0], [1.0, 0, 0]]),
-            np.array([[0.4, 0, 0], [0.45, 0, 0]]),
-        )
+        p_target = np.array([[0.0, 0, 0], [1.0, 0, 0]])
+        p_source = np.array([[0.4, 0, 0], [0.45, 0, 0]])
         assert nearest(p_target, p_source).tolist() == [0, 0]
         assert nearest(p_source, p_target).tolist() == [0, 1]
 

@@ -14,9 +14,8 @@ def test_any_factor_names_the_same_point_and_means_need_w_one():
     assert [state.p_h[3] for state in states[:-1]] == [1, 0.5, 0]
     mean = states[-1].mean_h
     assert mean is not None
-    np.testing.assert_allclose(
-        mean[:3] / mean[3], [0.25, 0.5, 0.75]
-    )  # a quarter of the way, not half
+    # a quarter of the way, not half
+    np.testing.assert_allclose(mean[:3] / mean[3], [0.25, 0.5, 0.75])
 
 
 def test_the_mean_of_vectors_of_the_page():

@@ -95,9 +95,8 @@ def test_two_libraries_call_a_mirror_image_a_perfect_fit():
     assert cost < 1e-12
     assert scipy.spatial.procrustes(q, p)[2] < 1e-12
     assert steps(q, p)["scale"].rmse > 0.2
-    T, _, _ = trimesh.registration.procrustes(
-        p, q, reflection=False
-    )  # right in its turn, and the ratio of sizes for scale
+    # right in its turn, and the ratio of sizes for scale
+    T, _, _ = trimesh.registration.procrustes(p, q, reflection=False)
     S = align_similarity(q, p)
     np.testing.assert_allclose(
         T[:3, :3] / np.cbrt(np.linalg.det(T[:3, :3])), steps(q, p)["flip"].T_target_source[:3, :3]

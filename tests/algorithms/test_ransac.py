@@ -378,9 +378,8 @@ def test_floor_and_wall_of_a_real_room_meet_at_a_right_angle(shared_data):
         fits.append(found(run_on(rest, PLANE, 0, score=msac_score, distance=0.02)[-1]))
         rest = rest[fits[-1].distances > 0.04]
     assert fits[0].count / len(p) == pytest.approx(0.27, abs=0.02)
-    floor = max(
-        (fit.estimate for fit in fits), key=lambda plane: abs(plane[1])
-    )  # the camera's y axis points down
+    # the camera's y axis points down
+    floor = max((fit.estimate for fit in fits), key=lambda plane: abs(plane[1]))
     wide = Judge(p, PLANE, 0.06, msac_score)
     wall = polished(p, PLANE, wide(fits[0].estimate), judge=wide).estimate
     on_floor = PLANE.distances(floor, p)

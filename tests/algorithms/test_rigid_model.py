@@ -51,11 +51,8 @@ def test_triangles_of_different_sides_are_dropped():
     p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
     samples = np.stack([np.hstack([p, q]) for q in (p, 1.2 * p, p[:, ::-1], 0 * p, p * [1, -1, 1])])
     motions = RIGID.solve(samples)
-    assert motions.shape == (
-        3,
-        4,
-        4,
-    )  # as it is, exchanged axes, and mirrored, which three points do not tell
+    # as it is, exchanged axes, and mirrored, which three points do not tell
+    assert motions.shape == (3, 4, 4)
     assert RIGID.solve(np.zeros((1, 3, 6))).shape == (0, 4, 4)
 
 

@@ -114,10 +114,8 @@ def test_the_termination_length_is_the_papers(seed, n, size, *, share):
 
 def test_a_model_of_no_votes_ends_nothing():
     assert termination_length(np.zeros(50, bool), np.arange(50.0), 4) == (0, 0.0)
-    assert termination_length(np.arange(50) < 4, -np.arange(50.0), 4) == (
-        0,
-        0.0,
-    )  # the sample itself is no evidence
+    # the sample itself is no evidence
+    assert termination_length(np.arange(50) < 4, -np.arange(50.0), 4) == (0, 0.0)
     assert termination_length(np.ones(50, bool), np.arange(50.0), 4) == (50, 1.0)
 
 

@@ -138,9 +138,8 @@ def test_along_one_line_it_finds_the_best_of_all_maps(seed, P1, more):
         + np.random.default_rng(seed).random((3, 1, 5)) * 1e-3
     )
     prepared, jumps = prepare(cost, P1, P2)
-    both = (
-        path_costs(prepared, (0, 1), jumps) + path_costs(prepared, (0, -1), jumps) - prepared
-    )  # C counted once
+    # C counted once
+    both = path_costs(prepared, (0, 1), jumps) + path_costs(prepared, (0, -1), jumps) - prepared
     best = min(
         energy(cost, np.array([line], float), P1, P2=P2)
         for line in itertools.product(range(3), repeat=5)

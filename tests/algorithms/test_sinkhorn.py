@@ -84,9 +84,8 @@ def test_sums_are_as_right_as_it_says_and_the_cost_is_above_the_optimum(seed, n,
         blurred.marginal_error, abs=1e-12
     )
     np.testing.assert_allclose(plan.sum(axis=0), 1 / m, atol=1e-12)
-    missing = (
-        2 * blurred.marginal_error * cost.max()
-    )  # what it costs at most to give all masses their place
+    # what it costs at most to give all masses their place
+    missing = 2 * blurred.marginal_error * cost.max()
     assert blurred.cost(cost) >= earth_movers(p_a, p_b) - missing - 1e-12
 
 

@@ -34,9 +34,8 @@ def save(edited: Edited, file: str, old: str, *, new: str) -> None:
     stamp = path.stat()
     assert old in text
     path.write_text(text.replace(old, new), encoding="utf-8")
-    os.utime(
-        path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns + 1)
-    )  # later by the least that there is
+    # later by the least that there is
+    os.utime(path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns + 1))
 
 
 @pytest.mark.parametrize(

@@ -20,10 +20,8 @@ from workbench.geometry.motions import exp_so3, motion
 N = 1_000_000
 LENS = Distortion(-0.26637, -0.038589, 0.0017832, -0.00028122, 0.23839)
 K = intrinsics(535.9, 342.3, 235.6)
-FLOORS = {
-    "project": 0.15,
-    "undistort": 0.39,
-}  # over the best peer: what a prototype in numpy and scipy reached
+# over the best peer: what a prototype in numpy and scipy reached
+FLOORS = {"project": 0.15, "undistort": 0.39}
 
 
 def milliseconds(task: Callable[[], object], repeats: int = 5) -> float:

@@ -38,12 +38,10 @@ BARE = "its rounds' bare calls"
 
 def main() -> None:
     """Print one table per task."""
-    networkx, fmm, potpourri, igl = (
-        peer("networkx"),
-        peer("skfmm"),
-        peer("potpourri3d"),
-        peer("igl"),
-    )
+    networkx = peer("networkx")
+    fmm = peer("skfmm")
+    potpourri = peer("potpourri3d")
+    igl = peer("igl")
     x = np.linspace(0.0, 1.0, SIDE)
     p = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
     compare(

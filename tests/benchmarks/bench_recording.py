@@ -62,9 +62,8 @@ def main() -> None:
     """Print a table."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "run.rrd"
-        record_file(
-            catalog()["transforms"], catalog()["transforms"].params(), path
-        )  # imports what is imported once
+        # imports what is imported once
+        record_file(catalog()["transforms"], catalog()["transforms"].params(), path)
         print(f"{'run':<32} {'bare':>8} {'recorded':>9} {'ratio':>6} {'size':>9} {'steps':>6}")
         for task in tasks():
             bare = []

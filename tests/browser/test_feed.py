@@ -256,10 +256,8 @@ GLIDED = """([i, j, by, parts]) => {
 def test_a_step_beside_is_gone_to_evenly_and_ends_exactly_where_it_says(fed, by):
     parts = [0.2, 0.5, 0.8, 1.0]
     moments, waiting = fed(GLIDED, [len(ALL), len(ALL) + 1, by, parts])
-    clouds, lines = (
-        np.array([moment[0] for moment in moments]),
-        np.array([moment[1] for moment in moments]),
-    )
+    clouds = np.array([moment[0] for moment in moments])
+    lines = np.array([moment[1] for moment in moments])
     assert waiting == 0
     assert list(clouds[-1]) == list(scenes_pose(AFTER))
     np.testing.assert_allclose(clouds[0], [1, 0, 0, 0, 0, 0, 0])

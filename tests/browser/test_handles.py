@@ -127,9 +127,8 @@ def test_a_held_handle_leads_while_answers_come_late(fed):
     for x in (1.1, 1.2, 1.3):
         moved(fed, "place", [x, 2.0, 0.5])
         fed("() => { client.said = []; }")
-        fed(
-            SHOW, PARAMS | {"place": [x - 0.1, 2.0, 0.5], "flat": [x, 0.0]}
-        )  # the answer to what was said before
+        # the answer to what was said before
+        fed(SHOW, PARAMS | {"place": [x - 0.1, 2.0, 0.5], "flat": [x, 0.0]})
         told = fed("() => client.said.map(({ name }) => name)")
         assert told
         assert set(told) == {"/handle/flat"}, "the hand is not pulled back; other handles follow"

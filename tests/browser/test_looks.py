@@ -31,10 +31,8 @@ from workbench.scene import (
 )
 
 pytestmark = pytest.mark.browser
-BACKDROPS = {
-    False: (255, 255, 255),
-    True: (20, 21, 23),
-}  # of viser's canvas, in the light and in the dark
+# of viser's canvas, in the light and in the dark
+BACKDROPS = {False: (255, 255, 255), True: (20, 21, 23)}
 TWO = Classes(np.array([0, 1]), ("truth", "wrong"), ("a", "b"))
 HEIGHT = Field(np.arange(3.0), 0.0, 2.0, "h")
 
@@ -99,9 +97,8 @@ def test_what_is_faded_is_mixed_with_the_backdrop_of_the_page(fed, opacity, dark
             np.reshape(nodes[name]["colors"], (-1, 3)), np.atleast_2d(mixed(rgb, opacity, dark))
         )
     for name, rgb in (("line", PALETTE["target"]), ("camera", PALETTE["truth"])):
-        np.testing.assert_array_equal(
-            nodes[name]["colors"], mixed(rgb, opacity, dark)
-        )  # one for all is sRGB
+        # one for all is sRGB
+        np.testing.assert_array_equal(nodes[name]["colors"], mixed(rgb, opacity, dark))
     ends = np.repeat([PALETTE["truth"], PALETTE["wrong"]], 2, axis=0)
     np.testing.assert_allclose(  # one for each end is linear light
         np.reshape(nodes["lines"]["colors"], (-1, 3)),

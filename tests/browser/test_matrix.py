@@ -125,10 +125,8 @@ def is_stepped_and_played_by_keys(home: Home) -> None:
     home.press("Tab")
     assert home.ask("document.activeElement.className") == "skip"
     end = own_end(run)
-    ends = (
-        ("End", end),
-        *([("End", last)] if end < last else []),
-    )  # tries of other starts follow the run's own end
+    # tries of other starts follow the run's own end
+    ends = (("End", end), *([("End", last)] if end < last else []))
     for key, k in (
         ("Home", 0),
         ("n", 1),
@@ -279,9 +277,8 @@ def links_run_things(home: Home) -> None:
         link.press("Enter")
         home.says(run[opens_at(run, at)].caption.text, opens_at(run, at))
         chosen = home.find(f"button[data-run='{name}'][aria-pressed=true]")
-        chosen.wait_for(
-            state="attached"
-        )  # where the text speaks of all experiments, their list is folded
+        # where the text speaks of all experiments, their list is folded
+        chosen.wait_for(state="attached")
 
 
 def a_question_is_answered_wrong_and_right(home: Home) -> None:

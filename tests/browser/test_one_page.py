@@ -30,9 +30,8 @@ def test_a_reload_comes_back_to_the_place_and_what_was_answered_stays(visit):
     me.page.wait_for_function(
         "location.search.includes('stage=line') && location.search.includes('step=1')"
     )
-    assert "theirs=1" in me.page.evaluate(
-        "location.search"
-    )  # keys that are not ours are left alone
+    # keys that are not ours are left alone
+    assert "theirs=1" in me.page.evaluate("location.search")
     me.page.reload()
     me.says(line[1].caption.text)
     assert expected.why in form.locator("output").inner_text()

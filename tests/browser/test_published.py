@@ -234,9 +234,8 @@ def test_the_last_click_wins_also_when_an_earlier_run_comes_later(opened, addres
     page.locator("button[data-run=half]").click()
     while not held:
         page.wait_for_timeout(50)
-    assert (
-        page.locator("#scene").get_attribute("aria-busy") == "true"
-    )  # a sign that it is on its way
+    # a sign that it is on its way
+    assert page.locator("#scene").get_attribute("aria-busy") == "true"
     page.locator("button[data-run=short]").click()
     page.wait_for_function("source.open_.name === 'short'")
     held[0].continue_()
@@ -278,9 +277,8 @@ def test_a_sweep_is_a_knob_and_keeps_the_step(opened, out):
     assert knob.get_attribute("aria-valuetext") == "0 deg"
     page.wait_for_function("location.hash === '#run=angle:0&step=1'")
     assert caption(page) == Timeline(FAKE, fake.Params(angle=0.0)).complete()[1].caption.text
-    assert (
-        page.locator("#drawer fieldset").count() == 1
-    )  # a knob that a static page cannot turn is not shown
+    # a knob that a static page cannot turn is not shown
+    assert page.locator("#drawer fieldset").count() == 1
     page.get_by_role("button", name="Reset").click()
     page.wait_for_function("source.open_.name === 'default'")
     assert knob.get_attribute("aria-valuetext") == "90 deg"

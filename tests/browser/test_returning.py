@@ -54,9 +54,8 @@ def test_a_page_goes_on_at_its_step_when_its_server_was_killed_and_is_there_agai
         assert errors == []
         process.kill()
         page.locator("#caption").get_by_text("This page tries to reach it").wait_for()
-        page.evaluate(
-            "page.seek(2)"
-        )  # what is known can be looked at, and where it was left is where it goes on
+        # what is known can be looked at, and where it was left is where it goes on
+        page.evaluate("page.seek(2)")
         page.evaluate("page.seek(3)")
         process.wait()
     with running("--port", address.rpartition(":")[2]) as (_, again):
@@ -70,9 +69,8 @@ def test_a_page_goes_on_at_its_step_when_its_server_was_killed_and_is_there_agai
         assert page.url == place
         assert page.evaluate("page.k") == 3
         assert page.evaluate("$('#article').scrollTop") == 300
-        assert any(
-            np.abs(at_rest(page) - before).max() < APART for _ in range(5)
-        )  # its last parts come late
+        # its last parts come late
+        assert any(np.abs(at_rest(page) - before).max() < APART for _ in range(5))
         page.locator("[data-act=next]").click()
         page.wait_for_function("page.k === 4")
         page.context.close()
@@ -104,9 +102,8 @@ def test_a_page_that_is_given_and_then_refused_asks_ever_more_seldom(chromium, s
     page.add_init_script(SHORT)
     page.route_web_socket("**/live?*", lambda socket: socket.close(code=4409))
     page.goto(f"{server.address}/?lesson=icp")
-    page.wait_for_function(
-        "(sessionStorage.waits ?? '').split(' ').length > 8"
-    )  # the first is empty
+    # the first is empty
+    page.wait_for_function("(sessionStorage.waits ?? '').split(' ').length > 8")
     waits = np.array(page.evaluate("sessionStorage.waits").split(), float)[:8]
     least = np.minimum(60.0, 2.0 ** np.arange(1, 9))
     assert np.all(waits >= least)

@@ -90,14 +90,12 @@ def test_playing_waits_for_steps_to_come_stops_at_the_end_and_starts_anew_from_t
     me.page.locator("#speed").select_option("8")
     me.act("first")
     me.page.wait_for_function("page.k === 0")
-    me.page.evaluate(
-        "page.run.finished = false, page.run.known = 3"
-    )  # the rest is still being computed
+    # the rest is still being computed
+    me.page.evaluate("page.run.finished = false, page.run.known = 3")
     me.act("play")
     me.page.wait_for_function("page.k === 2")
-    me.page.evaluate(
-        "new Promise((later) => setTimeout(later, 3 * 1000 / 8))"
-    )  # time for three steps
+    # time for three steps
+    me.page.evaluate("new Promise((later) => setTimeout(later, 3 * 1000 / 8))")
     assert me.page.evaluate("[transport.playing, page.k]") == [True, 2]
     me.page.evaluate(f"page.run.finished = true, page.run.known = {last + 1}")
     me.page.wait_for_function(f"page.k === {last} && !transport.playing")

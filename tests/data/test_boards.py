@@ -49,9 +49,8 @@ def test_a_seed_keeps_its_directions_at_every_tilt():
     cosine = (
         (little * much).sum(axis=1) / np.linalg.norm(little, axis=1) / np.linalg.norm(much, axis=1)
     )
-    np.testing.assert_allclose(
-        cosine[cosine > 0.999].size, 8, atol=3
-    )  # those whose first place fits at both
+    # those whose first place fits at both
+    np.testing.assert_allclose(cosine[cosine > 0.999].size, 8, atol=3)
 
 
 def test_prints():

@@ -44,9 +44,8 @@ def test_cameras_look_at_the_middle_and_reach_all_discs():
     for angle in (0.0, 2.0):
         p, d = flatland.rays_of(angle, 41)
         np.testing.assert_allclose((p + flatland.DISTANCE * d)[20], 0, atol=1e-12)
-        assert (
-            d[0, 0] * d[-1, 1] - d[0, 1] * d[-1, 0] < 0
-        )  # from left to right, seen from above: clockwise
+        # from left to right, seen from above: clockwise
+        assert d[0, 0] * d[-1, 1] - d[0, 1] * d[-1, 0] < 0
         assert np.degrees(np.arccos(d[0] @ d[-1])) == pytest.approx(2 * flatland.HALF_VIEW)
     far = np.linalg.norm(flatland.DISCS[:, :2], axis=1) + flatland.DISCS[:, 2]
     assert flatland.REACH[0] < flatland.DISTANCE - far.max()

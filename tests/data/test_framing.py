@@ -90,9 +90,8 @@ def test_degenerate_clouds_have_a_frame():
     assert extent(place) == 0.0
     np.testing.assert_array_equal(frame(place, 1.2).shown(place), np.zeros((4, 3)))
     assert frame(place, 1.2).scale == 1.2
-    nearly = np.concatenate(
-        [np.zeros((200, 3)), [[4.0, 0.0, 0.0]]]
-    )  # the box without far points is one place
+    # the box without far points is one place
+    nearly = np.concatenate([np.zeros((200, 3)), [[4.0, 0.0, 0.0]]])
     assert extent(nearly, far=2.0) == 4.0
 
 

@@ -88,9 +88,8 @@ def test_what_is_refused(folder):
     Image.fromarray(np.random.default_rng(0).integers(0, 255, (30, 40), np.uint8)).save(
         folder / "v3.png"
     )
-    (folder / "v3.png").write_bytes(
-        (folder / "v3.png").read_bytes()[:600]
-    )  # its size can be read, its pixels cannot
+    # its size can be read, its pixels cannot
+    (folder / "v3.png").write_bytes((folder / "v3.png").read_bytes()[:600])
     pictures = pictures_of(folder, names_in(folder))
     with pytest.raises(InputError, match=r"v3.png: not readable as an image"):
         pictures.shown(2, 100)

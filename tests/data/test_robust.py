@@ -44,9 +44,8 @@ def test_the_truth_fits_the_true_rows_and_the_noise_is_as_asked_for(name):
     assert model.distances(scene.truth, scene.p_true).max() < 1e-6
     off = model.distances(scene.truth, scene.p[scene.is_inlier])
     share = np.sqrt(1 / 3) if name == "wire" else 1.0  # two thirds have no noise
-    spread = (
-        share * sigma * (2.0 if name == "homography" else 1.0)
-    )  # two directions, noise of both views
+    # two directions, noise of both views
+    spread = share * sigma * (2.0 if name == "homography" else 1.0)
     assert np.sqrt(np.mean(off**2)) == pytest.approx(spread, rel=0.25)
 
 

@@ -124,9 +124,8 @@ def test_the_motorcycle_is_what_its_readme_says():
     assert np.isnan(pair.disparity).mean() == pytest.approx(0.0735, abs=0.001)
     v, u = np.nonzero(pair.visible & inner(np.nan_to_num(pair.disparity)))
     right = scipy.ndimage.map_coordinates(grey(pair.right), [v, u - pair.disparity[v, u]], order=1)
-    assert (
-        np.median(np.abs(right - grey(pair.left)[v, u])) < 3.0
-    )  # left-referenced, and the sign is right
+    # left-referenced, and the sign is right
+    assert np.median(np.abs(right - grey(pair.left)[v, u])) < 3.0
 
 
 def test_shrinking_keeps_depths():
@@ -159,9 +158,8 @@ def test_own_pairs(tmp_path):
     assert own.camera == StereoCamera(150.0, 79.5, 59.5, 0.1, 2.0)
     assert own.disparity is None
     mixed = read_pair(tmp_path / "left.png", tmp_path / "grey_right.png", 150.0, baseline=0.1)
-    assert (
-        np.abs(grey(mixed.right) - grey(pair.right)).max() <= 0.5 + 1e-6
-    )  # colour and grey go together
+    # colour and grey go together
+    assert np.abs(grey(mixed.right) - grey(pair.right)).max() <= 0.5 + 1e-6
 
 
 def test_files_that_are_no_pair_are_refused_in_one_line(tmp_path, monkeypatch):

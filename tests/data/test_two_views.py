@@ -65,10 +65,8 @@ def test_pictures_agree_at_matches(scene):
     first, second = views.images
     assert first is not None
     assert second is not None
-    (u, v), (s, t) = (
-        views.matches[:, :2].round().astype(int).T,
-        views.matches[:, 2:].round().astype(int).T,
-    )
+    u, v = views.matches[:, :2].round().astype(int).T
+    s, t = views.matches[:, 2:].round().astype(int).T
     off = np.abs(first[v, u].astype(int) - second[t, s]).max(axis=1)
     assert np.median(off) == 0
     assert (off > 40).mean() < 0.05

@@ -16,9 +16,8 @@ def test_the_windows_are_the_pixels_of_both_pictures():
     left, right = rng.integers(0, 256, (2, 20, 30, 3)).astype(np.uint8)
     image = windows(left, right, (15, 10))
     assert image.shape == (9, 9 + 2 + 9, 3)
-    assert (
-        np.abs(image[2:7, 2:7] - 1.0 * left[8:13, 13:18]).max() <= 6
-    )  # already as bright as can be
+    # already as bright as can be
+    assert np.abs(image[2:7, 2:7] - 1.0 * left[8:13, 13:18]).max() <= 6
     assert np.abs(image[2:7, 13:18] - 1.0 * right[8:13, 9:14]).max() <= 6
     assert (image[1, 1:8] == FRAME).all()
     dim = windows(left // 4, right // 4, (15, 10))

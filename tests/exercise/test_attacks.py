@@ -53,9 +53,8 @@ def wall(request, tmp_path_factory) -> Iterator[Wall]:
         folder.stat().st_mode & stat.S_IXOTH for folder in Path(python.here().executable).parents
     ):
         pytest.skip("other users do not get at this Python")
-    closed = tmp_path_factory.mktemp(
-        "closed"
-    )  # as `handout` closes its own; a checkout need not be
+    # as `handout` closes its own; a checkout need not be
+    closed = tmp_path_factory.mktemp("closed")
     shutil.copytree(LESSONS / "icp" / "exercises", closed / "lessons" / "icp" / "exercises")
     closed.chmod(0o700)
     with pytest.MonkeyPatch.context() as patched:
@@ -82,11 +81,8 @@ class Teacher:
         self.results.write_text('{"points": 0}')
         self.listening = socket.create_server(("127.0.0.1", 0))
         self.listening.setblocking(False)
-        powerless = [
-            "setpriv",
-            "--inh-caps=-all",
-            "--bounding-set=-all",
-        ]  # root's own are not everybody's to touch
+        # root's own are not everybody's to touch
+        powerless = ["setpriv", "--inh-caps=-all", "--bounding-set=-all"]
         sleeping = [
             *(powerless if os.geteuid() == 0 and shutil.which("setpriv") else []),
             "sleep",
@@ -199,9 +195,8 @@ def test_it_gets_nothing_and_harms_nobody(teacher, wall, attempting, *, name):
     assert teacher.seen() == before
     assert teacher.other() == other
     assert not teacher.was_called()
-    assert (
-        attempting._process is None or len(family(attempting._process.pid)) <= 3
-    )  # bubblewrap's two, and its own
+    # bubblewrap's two, and its own
+    assert attempting._process is None or len(family(attempting._process.pid)) <= 3
 
 
 @pytest.mark.parametrize("name", attacks.SOLUTIONS, ids=ids(attacks.SOLUTIONS))

@@ -22,9 +22,8 @@ def no_program(*_, **__):
 )
 def test_a_student_s_folder_is_bounded_or_nobody_writes_to_it(monkeypatch, run, bounded):
     monkeypatch.setattr(subprocess, "run", run)
-    monkeypatch.setattr(
-        bubblewrap, "_knows_sizes", bubblewrap._knows_sizes.__wrapped__
-    )  # what was found of this machine's stays
+    # what was found of this machine's stays
+    monkeypatch.setattr(bubblewrap, "_knows_sizes", bubblewrap._knows_sizes.__wrapped__)
     command = bubblewrap.arguments(python.here())
     assert command[-4:-2] == ["--chdir", bubblewrap.FOLDER]
     assert ("--size" in command) is bounded

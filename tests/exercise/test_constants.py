@@ -51,9 +51,8 @@ def its_own_input(args: tuple, right: Any) -> Any:
 
 @pytest.mark.parametrize("exercise", exercises().values(), ids=lambda exercise: exercise.name)
 def test_no_constant_and_no_input_returned_earns_over_a_quarter(exercise, monkeypatch):
-    monkeypatch.setattr(
-        jaxtyping.config, "jaxtyping_disable", True
-    )  # checked shapes raise what no contract names
+    # checked shapes raise what no contract names
+    monkeypatch.setattr(jaxtyping.config, "jaxtyping_disable", True)
     functions = {
         str(number): answering(exercise, lambda _, right, number=number: filled(right, number))
         for number in NUMBERS

@@ -43,9 +43,8 @@ def test_names_are_unique():
 
 @pytest.mark.parametrize("promise", OF_EXERCISES, ids=named)
 def test_it_keeps_its_promises(exercise, promise, monkeypatch):
-    monkeypatch.setattr(
-        jaxtyping.config, "jaxtyping_disable", True
-    )  # checked shapes raise what no contract names
+    # checked shapes raise what no contract names
+    monkeypatch.setattr(jaxtyping.config, "jaxtyping_disable", True)
     wrong = [
         line for line in promise(Subject(catalog()[exercise.lesson]), exercise) if line is not None
     ]

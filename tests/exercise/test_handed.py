@@ -167,9 +167,8 @@ def test_a_student_has_one_row_and_it_counts_out_of_all_that_was_handed_in(tmp_p
     checks = {row["student"]: row for row in rows(tmp_path, "matrix.csv")}
     asked = [name for name in checks["eve"] if name.startswith("middle.")]
     assert asked
-    assert {checks["eve"][name] for name in asked} == {
-        ""
-    }  # a check that nobody asked of her, and no 0
+    # a check that nobody asked of her, and no 0
+    assert {checks["eve"][name] for name in asked} == {""}
     assert "" not in {checks["ada"][name] for name in asked}
     jsonschema = pytest.importorskip("jsonschema")
     for place in (tmp_path / "out" / "students").iterdir():

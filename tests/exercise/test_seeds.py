@@ -76,9 +76,8 @@ def test_a_table_of_answers_is_worth_little_from_another_seed(exercise):
     ]
     asked = sum(outcome.check.points for outcome in hidden)
     earned = sum(outcome.points for outcome in hidden)
-    assert (
-        earned <= 0.6 * asked
-    )  # what is at the ends, such as no point at all, is the same for everybody
+    # what is at the ends, such as no point at all, is the same for everybody
+    assert earned <= 0.6 * asked
     drawn = [outcome for outcome in hidden if outcome.verdict.share == 0]
     assert drawn
 

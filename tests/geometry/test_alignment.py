@@ -301,9 +301,8 @@ def test_the_error_of_a_motion_is_what_was_added_to_the_truth():
     turn = exp_so3(np.array([0.0, 0.0, np.radians(20)]))
     turned = motion_error(motion(turn, centre - turn @ centre) @ T_true, T_true, p)
     assert (turned.rotation, turned.translation) == pytest.approx((20, 0), abs=1e-9)
-    far = np.linalg.norm(
-        (apply(T_true, p) - centre)[:, :2], axis=1
-    )  # a chord of 20 degrees at each radius
+    # a chord of 20 degrees at each radius
+    far = np.linalg.norm((apply(T_true, p) - centre)[:, :2], axis=1)
     assert turned.displacement == pytest.approx(
         2 * np.sin(np.radians(10)) * np.sqrt(np.mean(far**2))
     )

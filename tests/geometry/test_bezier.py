@@ -72,9 +72,8 @@ def test_weighted_arcs_are_circles_and_polynomial_ones_are_not():
         p = np.concatenate([bernstein(len(arc) - 1, t) @ arc for arc in quarter_circles(rational)])
         off[rational] = np.abs(np.linalg.norm(p[:, :2], axis=1) / p[:, 2] - 1).max()
     assert off[True] < 1e-14
-    assert off[False] == pytest.approx(
-        2.73e-4, rel=0.01
-    )  # the known error of the usual cubic quarter
+    # the known error of the usual cubic quarter
+    assert off[False] == pytest.approx(2.73e-4, rel=0.01)
 
 
 @pytest.mark.parametrize(("rational", "most"), [(True, 1e-15), (False, 2.9e-4)])

@@ -53,9 +53,8 @@ def test_four_points_are_too_few_where_sqpnp_hardly_fails():
     """OpenCV 5.0.0's EPnP is over 5 degrees off in 29 % of these pictures, its SQPnP in 1.8 %."""
     Ts, p_world, xy = views(4, 400)
     assert 0.08 < far(epnp(p_world, xy), Ts) < 0.15
-    assert (
-        far(sqpnp(p_world, xy), Ts) < 0.018
-    )  # 5 or 6 of 400, by how the machine rounds; never as many as OpenCV's
+    # 5 or 6 of 400, by how the machine rounds; never as many as OpenCV's
+    assert far(sqpnp(p_world, xy), Ts) < 0.018
     exact = views(4, 400, sigma=0.0)
     assert 0.10 < far(epnp(*exact[1:]), Ts) < 0.2  # it is not the noise
     for n in (5, 6, 20):

@@ -43,9 +43,8 @@ def test_true_matches_satisfy_the_constraint_and_lie_on_their_lines(seed):
 
 
 def test_the_epipole_has_no_line_and_one_place_no_geometry():
-    F = np.array(
-        [[0.0, -1.0, 5.0], [1.0, 0.0, -3.0], [-5.0, 3.0, 0.0]]
-    )  # a camera that moved ahead: the epipole is (3, 5)
+    # a camera that moved ahead: the epipole is (3, 5)
+    F = np.array([[0.0, -1.0, 5.0], [1.0, 0.0, -3.0], [-5.0, 3.0, 0.0]])
     assert np.isnan(epipolar_lines(F, np.array([[3.0, 5.0]]))).all()
     with pytest.raises(ValueError, match="one place"):
         fundamental_from_cameras(np.eye(3), np.eye(3), np.eye(4))

@@ -170,11 +170,8 @@ def test_the_four_motions_come_in_one_order_whatever_basis_a_library_takes(seed)
     turn = np.eye(3)
     turn[:2, :2] = [[np.cos(seed), -np.sin(seed)], [np.sin(seed), np.cos(seed)]]
     signs = np.diag(rng.choice([-1.0, 1.0], 3))
-    other = (
-        U @ turn @ signs,
-        s,
-        signs @ turn.T @ Vt,
-    )  # as good a decomposition, since two singular values are equal
+    # as good a decomposition, since two singular values are equal
+    other = (U @ turn @ signs, s, signs @ turn.T @ Vt)
     np.testing.assert_allclose(other[0] @ np.diag(s) @ other[2], E, atol=1e-12)
     with unittest.mock.patch("numpy.linalg.svd", return_value=other):
         Ts = essential_to_poses(E)

@@ -57,9 +57,10 @@ def test_no_path_leads_out_of_reach():
     lengths = np.array([1.0])
     d = geodesics.shortest_distances(edges, lengths, 3, 0)
     assert len(geodesics.shortest_path(edges, lengths, d, goal=2)) == 0
+    # wrong distances
     assert geodesics.shortest_path(edges, lengths, np.array([0.0, 0.0, 1.0]), goal=2).tolist() == [
         2
-    ]  # wrong distances
+    ]
 
 
 @pytest.mark.parametrize(("neighbours", "worst"), [(4, 41.42), (8, 8.239), (16, 2.749)])

@@ -126,9 +126,8 @@ def test_latitude_is_the_normals_angle():
     latitude = np.linspace(-1.5, 1.5, 11)
     rho, z = globe.meridian(latitude).T
     np.testing.assert_allclose((rho / 2.0) ** 2 + (z / 1.4) ** 2, 1)
-    np.testing.assert_allclose(
-        np.arctan2(z / 1.4**2, rho / 2.0**2), latitude
-    )  # the gradient of that
+    # the gradient of that
+    np.testing.assert_allclose(np.arctan2(z / 1.4**2, rho / 2.0**2), latitude)
     np.testing.assert_allclose(np.arctan2(z, rho), globe.geocentric(latitude))
 
 

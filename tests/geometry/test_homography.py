@@ -161,9 +161,8 @@ def test_a_grid_stays_a_grid_under_the_identity_and_goes_where_its_corners_go():
     size = np.array([640.0, 480.0])
     ends = warped_grid(np.eye(3), size, cells=4, pieces=3)
     assert len(ends) == 2 * 5 * 12
-    assert (
-        np.isclose(np.diff(ends, axis=1)[:, 0] / size, 0).any(axis=1).all()
-    )  # along the columns or the rows
+    # along the columns or the rows
+    assert np.isclose(np.diff(ends, axis=1)[:, 0] / size, 0).any(axis=1).all()
     H = np.array([[1.1, 0.1, 20], [-0.05, 0.9, 5], [1e-4, -2e-4, 1]])
     np.testing.assert_allclose(
         warped_grid(H, size, cells=4, pieces=3),

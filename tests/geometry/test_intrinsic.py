@@ -49,9 +49,8 @@ def test_in_the_plane_it_is_the_triangulation_of_scipy():
     p, faces = sheared(9, 2.3)
     ours = {tuple(sorted(face)) for face in intrinsic_delaunay(p, faces).vertices.T.tolist()}
     hull = {tuple(sorted(face)) for face in scipy.spatial.Delaunay(p[:, :2]).simplices.tolist()}
-    deep = [
-        face for face in hull if all(1 <= v // 9 <= 7 and 1 <= v % 9 <= 7 for v in face)
-    ]  # away from the border
+    # away from the border
+    deep = [face for face in hull if all(1 <= v // 9 <= 7 and 1 <= v % 9 <= 7 for v in face)]
     assert len(deep) > 40
     assert set(deep) <= ours
     assert not set(deep) <= {tuple(sorted(face)) for face in faces.tolist()}
@@ -66,9 +65,8 @@ def test_no_weight_is_negative_and_the_surface_is_the_same(p, faces):
     assert negative_weights(before) > 0
     assert negative_weights(after) == 0
     assert after.double_areas.sum() == pytest.approx(before.double_areas.sum())
-    np.testing.assert_allclose(
-        after.sums(after.angles), before.sums(before.angles), atol=1e-6
-    )  # round every vertex
+    # round every vertex
+    np.testing.assert_allclose(after.sums(after.angles), before.sums(before.angles), atol=1e-6)
     L = cotangent_laplacian_of(after)
     np.testing.assert_allclose(L @ np.ones(len(p)), 0, atol=1e-9)
     rng = np.random.default_rng(1)

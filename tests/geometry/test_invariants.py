@@ -30,9 +30,8 @@ def test_measures_agree_with_trimesh(shape):
     assert measures.volume == pytest.approx(mesh.volume)
     assert measures.area == pytest.approx(mesh.area)
     np.testing.assert_allclose(np.sort(measures.lengths), np.sort(mesh.edges_unique_length))
-    np.testing.assert_allclose(
-        measures.angles, mesh.face_angles, atol=1e-7
-    )  # trimesh loses digits in an arc cosine
+    # trimesh loses digits in an arc cosine
+    np.testing.assert_allclose(measures.angles, mesh.face_angles, atol=1e-7)
 
 
 @settings(max_examples=40, deadline=None)

@@ -74,12 +74,8 @@ def test_the_response_turns_with_the_picture_and_edges_are_negative():
     square = np.zeros((30, 30))
     square[10:20, 10:20] = 200
     corners = keypoints.strongest(keypoints.harris_response(square), 10)
-    assert {tuple(c) for c in corners.tolist()} == {
-        (11, 11),
-        (18, 11),
-        (11, 18),
-        (18, 18),
-    }  # inside the bright square
+    # inside the bright square
+    assert {tuple(c) for c in corners.tolist()} == {(11, 11), (18, 11), (11, 18), (18, 18)}
 
 
 def test_patches_do_not_see_brightness_or_contrast():

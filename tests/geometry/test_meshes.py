@@ -158,9 +158,8 @@ def test_welding_closes_seams_and_keeps_the_shape():
     p, faces = TETRAHEDRON
     soup = p[faces].reshape(-1, 3)
     loose = np.vstack([soup, [[9.0, 9.0, 9.0]]])
-    apart = np.vstack(
-        [np.arange(12).reshape(-1, 3), [[0, 3, 1]]]
-    )  # vertices 0 and 3 are at one place
+    # vertices 0 and 3 are at one place
+    apart = np.vstack([np.arange(12).reshape(-1, 3), [[0, 3, 1]]])
     assert meshes.on_boundary(apart[:4], 13).any()
     kept, renamed = meshes.welded(loose, apart)
     assert len(kept) == len(renamed) == 4

@@ -51,9 +51,8 @@ def test_shares_of_broken_triangles(metric, order, share):
 def test_squares_break_it_where_the_angle_at_b_is_obtuse():
     a, b, c = some(3, 500)
     excess, _ = metrics.triangle_excess(metrics.distance_of("squared"), a, b, c=c)
-    np.testing.assert_allclose(
-        excess, -2 * ((a - b) * (c - b)).sum(axis=1), atol=1e-9
-    )  # the law of cosines
+    # the law of cosines
+    np.testing.assert_allclose(excess, -2 * ((a - b) * (c - b)).sum(axis=1), atol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -58,9 +58,8 @@ def test_the_closed_form_agrees_with_eigh(seed):
     )
     np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-9)
     values = np.linalg.eigvalsh(C)
-    quotient = np.einsum(
-        "ni,nij,nj->n", normals, C, normals
-    )  # Rayleigh: how much worse than the best direction
+    # Rayleigh: how much worse than the best direction
+    quotient = np.einsum("ni,nij,nj->n", normals, C, normals)
     assert np.all(quotient - values[:, 0] <= 1e-10 * values[:, 2])
 
 

@@ -120,9 +120,8 @@ def test_the_stereo_rig_has_one_motion_in_all_views(shared_data):
         R = nearest_rotation(np.sum([T[:3, :3] for T in rig], axis=0))
         baselines = 1e3 * np.linalg.norm([T[:3, 3] for T in rig], axis=1)
         assert np.median([degrees_between(T[:3, :3], R) for T in rig]) < degrees
-        assert np.median(baselines) == pytest.approx(
-            millimetres, abs=0.3
-        )  # cv2.stereoCalibrate says 83.6
+        # cv2.stereoCalibrate says 83.6
+        assert np.median(baselines) == pytest.approx(millimetres, abs=0.3)
         assert np.subtract(*np.percentile(baselines, [75, 25])) < spread
         if len(p) == 54:
             assert np.mean(same) > 0.8  # of the whole board both refine to one

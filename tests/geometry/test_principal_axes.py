@@ -47,9 +47,8 @@ def test_far_from_the_origin_no_digit_of_the_axes_is_lost(offset):
     mean = (p + offset).mean(axis=0)
     raw = (p + offset).T @ (p + offset) / len(p)
     vectors = np.linalg.eigh(raw - np.outer(mean, mean))[1][:, ::-1]
-    assert (degrees_between_axes(vectors, principal_axes(p)).max() > 0.1) == (
-        offset == 1e6
-    )  # the usual way
+    # the usual way
+    assert (degrees_between_axes(vectors, principal_axes(p)).max() > 0.1) == (offset == 1e6)
 
 
 @settings(max_examples=40, deadline=None)

@@ -89,9 +89,8 @@ def test_depth_is_what_a_ray_through_each_pixel_meets(seed, lens):
             for f in (scipy.ndimage.minimum_filter, scipy.ndimage.maximum_filter)
         )
         between = (image.depth >= nearest * (1 - 1e-2)) & (image.depth <= furthest * (1 + 1e-2))
-        assert (
-            between[inside].mean() > 0.99
-        )  # what is thinner than a pixel may be hit by one and missed by the other
+        # what is thinner than a pixel may be hit by one and missed by the other
+        assert between[inside].mean() > 0.99
 
 
 @pytest.mark.parametrize("lens", [NONE, BARREL, Distortion(0.2, 0.05)])
@@ -185,7 +184,6 @@ def test_points_in_sight_are_those_that_nothing_stands_before():
     assert 50 < met.sum() < len(met) - 50
     assert (shown[:-2] & ~met).mean() < 0.01  # at an edge
     near = np.linalg.norm(p[:-2] - eye, axis=1) < 13.0
-    assert (
-        shown[:-2][met & near].mean() > 0.9
-    )  # what leans, far away, has too many depths in a pixel
+    # what leans, far away, has too many depths in a pixel
+    assert shown[:-2][met & near].mean() > 0.9
     assert not shown[-2:].any()  # behind the camera, and in it

@@ -26,10 +26,8 @@ def beside(heading: float, turn: float = 0.0) -> np.ndarray:
 def test_rows_correspond_and_disparity_is_depth(seed):
     T, p, uv_first, uv_second = pair(seed)
     rectified = rectify(T, K, L)
-    uv, st_ = (
-        transform_pixels(rectified.H_first, uv_first),
-        transform_pixels(rectified.H_second, uv_second),
-    )
+    uv = transform_pixels(rectified.H_first, uv_first)
+    st_ = transform_pixels(rectified.H_second, uv_second)
     np.testing.assert_allclose(uv[:, 1], st_[:, 1], atol=1e-7)
     d = (uv - st_)[:, 0]
     assert (d < 0).all() == rectified.second_is_left
@@ -125,9 +123,8 @@ def test_opencv_turns_the_cameras_alike():
         theirs = cv2.stereoRectify(
             K, np.zeros((5, 1)), K, np.zeros((5, 1)), SIZE, T[:3, :3], T[:3, 3:]
         )
-        assert (
-            degrees_between(ours.R_rectified_first, theirs[0]) < 0.5
-        )  # it halves the turn, we the angle of the axes
+        # it halves the turn, we the angle of the axes
+        assert degrees_between(ours.R_rectified_first, theirs[0]) < 0.5
 
 
 def test_the_fountains_rows(shared_data):

@@ -45,9 +45,8 @@ def differences(
 def test_every_pullback_is_that_of_differences(representation, d):
     rng = np.random.default_rng(3)
     y = rng.normal(size=(40, len(representation.start)))
-    y[:4] = (
-        representation.start
-    )  # no turn, where a rotation vector is zero and a matrix has equal singular values
+    # no turn, where a rotation vector is zero and a matrix has equal singular values
+    y[:4] = representation.start
     slope = rng.normal(size=(40, d, d))
     np.testing.assert_allclose(
         representation.pullback(y, slope), differences(representation, y, slope), atol=2e-7

@@ -69,9 +69,8 @@ def test_euler_angles_agree_with_scipy_away_from_lock(order, angles):
     np.testing.assert_allclose(euler_to_matrix(recovered, order), R, atol=2e-12)
     if gimbal_margin(angles, order) > 1e-3:
         difference = recovered - Rotation.from_matrix(R).as_euler(order)
-        np.testing.assert_allclose(
-            np.sin(difference / 2), 0, atol=1e-10
-        )  # -pi and pi are one angle
+        # -pi and pi are one angle
+        np.testing.assert_allclose(np.sin(difference / 2), 0, atol=1e-10)
 
 
 @pytest.mark.parametrize("order", EULER_ORDERS)

@@ -72,9 +72,8 @@ def test_one_pixel_costs_more_the_further_away():
     near, far = depth_interval(
         disparity_from_depth(depth, 700.0, 0.12), 700.0, 0.12, disparity_error=1.0
     )
-    assert far - near == pytest.approx(
-        [0.0238, 0.597, 10.1], rel=0.01
-    )  # exact: longer on the far side
+    # exact: longer on the far side
+    assert far - near == pytest.approx([0.0238, 0.597, 10.1], rel=0.01)
     assert (far - depth > depth - near).all()
 
 

@@ -43,9 +43,8 @@ def test_covariances_are_what_repetition_shows():
     triangulated = triangulate(P, Q, *(x + sigma * rng.normal(size=(n, 2)) for x in uv))
     predicted = triangulation_covariances(P, Q, p[None], sigma=sigma)[0]
     np.testing.assert_allclose(np.cov(triangulated.T), predicted, atol=0.06 * predicted[2, 2])
-    assert np.sqrt(predicted[2, 2]) == pytest.approx(
-        8**2 / 900 * sigma * np.sqrt(2), rel=0.02
-    )  # Z² sigma_d / (f b)
+    # Z² sigma_d / (f b)
+    assert np.sqrt(predicted[2, 2]) == pytest.approx(8**2 / 900 * sigma * np.sqrt(2), rel=0.02)
 
 
 def test_depth_errors_go_with_one_over_the_baseline_and_some_land_behind():

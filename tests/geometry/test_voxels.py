@@ -69,9 +69,8 @@ def test_one_cell():
     p, faces = counted_surface(bits, Grid(np.zeros(3), spacing, (1, 1, 1)))
     np.testing.assert_array_equal([p.min(axis=0), p.max(axis=0)], [[0, 0, 0], [1, 2, 3]])
     p, faces = marched_surface(bits, Grid(np.zeros(3), spacing, (1, 1, 1)))
-    assert signed_volume(p, faces) == pytest.approx(
-        1.0
-    )  # an octahedron with half-axes of half a spacing
+    # an octahedron with half-axes of half a spacing
+    assert signed_volume(p, faces) == pytest.approx(1.0)
 
 
 def test_no_cell_at_all():

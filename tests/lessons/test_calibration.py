@@ -199,9 +199,8 @@ def test_more_terms_fit_better_and_promise_nothing_outside():
     assert end(middle).rms <= few.rms
     assert few.worst_in_picture < 60
     _, known = ending(middle, "known")
-    unseen = np.isnan(
-        known.deviation
-    )  # the lens that was found folds there: no ray is seen at these pixels
+    # the lens that was found folds there: no ray is seen at these pixels
+    unseen = np.isnan(known.deviation)
     assert unseen[[0, 0, -1, -1], [0, -1, 0, -1]].all()
     assert 0.3 < unseen.mean() < 0.9
     assert not unseen[12, 16]
@@ -228,9 +227,8 @@ def test_four_things_are_called_the_error():
 def test_the_answers(name, right):
     question = next(question for question in lesson.questions if question.name == name)
     assert question.answer(states(question.params)) == pytest.approx(right, abs=0.001)
-    assert (
-        abs(right - {"noise-rms": 0.2, "views": 3}.get(name, 9)) > question.tolerance
-    )  # the usual wrong answer
+    # the usual wrong answer
+    assert abs(right - {"noise-rms": 0.2, "views": 3}.get(name, 9)) > question.tolerance
 
 
 def test_two_views_determine_k_and_not_well():

@@ -243,9 +243,8 @@ def test_the_right_camera_and_a_board_in_millimetres(corners, tmp_path):
     assert last.now.K is not None
     np.testing.assert_allclose(other.now.K, last.now.K, atol=1e-3)
     np.testing.assert_allclose(other.now.Ts_camera_board, last.now.Ts_camera_board, atol=1e-5)
-    wrong = draw(
-        end(Params(corners=tmp_path / "mm.npz", lens="k1 k2 p1 p2 k3"))
-    )  # metres that are millimetres
+    # metres that are millimetres
+    wrong = draw(end(Params(corners=tmp_path / "mm.npz", lens="k1 k2 p1 p2 k3")))
     right = draw(last)
     for path, kind in (("boards/0", Segments), ("camera", Camera)):
         T_wrong, T_right = (

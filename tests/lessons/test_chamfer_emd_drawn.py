@@ -156,9 +156,8 @@ class TestPicture:
         dot = shown["left/source"].radius
         area = sum(len(disc.p) * (disc.radius / dot) ** 2 for disc in discs)
         shared = (scipy.spatial.distance.cdist(p, p) < 1e-3).sum(axis=1) > 1
-        assert (
-            shared.sum() <= area <= 2 * shared.sum()
-        )  # an area for each point, rounded up to a power of two
+        # an area for each point, rounded up to a power of two
+        assert shared.sum() <= area <= 2 * shared.sum()
         assert shared.sum() > 40
         assert not [path for path in shown if path.startswith("right/clumps")]
 

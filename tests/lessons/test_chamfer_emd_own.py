@@ -58,9 +58,8 @@ class TestSlots:
         ours = flows(params)
         wrong = flows(params, earth_movers=by_index)
         assert np.abs(wrong[-1].right.flow.p_moving - ours[-1].right.flow.p_moving).max() > 0.5
-        home = (
-            wrong[-1].right.flow.p_moving - wrong[-1].clouds.p_target
-        )  # every point to the one with its own index
+        # every point to the one with its own index
+        home = wrong[-1].right.flow.p_moving - wrong[-1].clouds.p_target
         assert np.linalg.norm(home, axis=1).max() < 0.3
         assert wrong[-1].right.flow.value < 0.1 < ours[-1].right.numbers.index_mse
 

@@ -49,9 +49,8 @@ def test_past_the_axis_one_coordinate_turns_half_round_within_two_steps():
         assert tone(name) == "good"
     steps = np.abs(np.diff(last("cartesian").c, axis=0))
     assert steps.max() == pytest.approx(0.075)
-    assert caption_of(draw(of("home")[20])).text.endswith(
-        "changed φ by 79.5°."
-    )  # where the page sends a reader
+    # where the page sends a reader
+    assert caption_of(draw(of("home")[20])).text.endswith("changed φ by 79.5°.")
 
 
 def test_a_mount_locks_at_the_zenith_as_the_page_says():

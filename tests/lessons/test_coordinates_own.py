@@ -102,9 +102,8 @@ def test_a_real_vehicle_scan_as_a_range_image_shows_no_rings(shared_data):
     elevation = np.pi / 2 - polar[r > 0]
     counts = np.sort(np.histogram(elevation, 200)[0])[::-1]
     needed = int(np.searchsorted(np.cumsum(counts), 0.9 * counts.sum())) + 1
-    assert (
-        120 < needed < 180
-    )  # of 200 bins, for 90 % of the points; a scanner of 64 rings would need some 60
+    # of 200 bins, for 90 % of the points; a scanner of 64 rings would need some 60
+    assert 120 < needed < 180
     assert len(steps_of_real(shared_data / "icp" / "car_cloud400.csv", "z")) == 17
 
 

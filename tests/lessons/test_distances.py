@@ -85,9 +85,8 @@ def test_a_scatter_is_made_round():
     round_ = run[3].now
     assert isinstance(round_, Scatter)
     np.testing.assert_allclose(np.cov(round_.p.T), np.eye(2), atol=1e-9)
-    np.testing.assert_allclose(
-        np.linalg.norm(round_.p, axis=1), round_.d
-    )  # Mahalanobis' distance is Euclid's now
+    # Mahalanobis' distance is Euclid's now
+    np.testing.assert_allclose(np.linalg.norm(round_.p, axis=1), round_.d)
     np.testing.assert_allclose(np.linalg.norm(round_.rim, axis=1), 2.4477, atol=1e-4)
     np.testing.assert_allclose(np.mean(run[1].now.p, axis=0), 0, atol=1e-12)
     assert now(Scatter, preset("whiten"), 4).flagged.mean() == pytest.approx(0.05, abs=0.03)
@@ -151,9 +150,8 @@ def test_the_error_along_edges_stays_and_that_of_marching_falls():
         np.testing.assert_allclose(study[name], worst, atol=0.012)
     np.testing.assert_allclose(study["marching"], [15.0, 12.1, 8.0, 5.3, 3.3], atol=0.06)
     np.testing.assert_allclose(study["marching, exact disc"][1:], [8.0, 3.6, 1.7, 0.8], atol=0.06)
-    assert (
-        study["marching"][1] > study["8 neighbours"][1]
-    )  # coarse grids: Dijkstra is nearer the truth
+    # coarse grids: Dijkstra is nearer the truth
+    assert study["marching"][1] > study["8 neighbours"][1]
 
 
 @pytest.mark.parametrize(

@@ -111,10 +111,8 @@ def test_heat_distance_is_no_metric():
     assert np.median(distances.asymmetry) == pytest.approx(0.014, abs=0.0005)
     assert distances.asymmetry.max() == pytest.approx(0.17, abs=0.005)
     run = finished("distances", preset("heat"))
-    assert [caption_of(run[step].scene).tone for step in (-2, -1)] == [
-        "good",
-        "info",
-    ]  # right, and no metric
+    # right, and no metric
+    assert [caption_of(run[step].scene).tone for step in (-2, -1)] == ["good", "info"]
     table = finished("distances", preset("heat"))[-1].scene["metric"]
     assert isinstance(table, Table)
 

@@ -37,9 +37,8 @@ def at(name: str, stage: str) -> Any:
 
 
 def end(name: str) -> Caption:
-    return caption_of(
-        draw(of(name)[-1])
-    )  # not as it is shown: what breaks on purpose is shown calmly
+    # not as it is shown: what breaks on purpose is shown calmly
+    return caption_of(draw(of(name)[-1]))
 
 
 def clean(state: Any) -> float:
@@ -59,6 +58,7 @@ def test_home_finds_the_motion():
     assert len(of("home")) < 30
     kinds = [state.now.stage for state in of("home")]
     assert kinds[:8] == 6 * ["ray"] + ["plane", "pencil"]
+    # where the page's links go
     assert [kinds[k] for k in (8, 9, 10, 11, 12, 16, 17)] == [
         "equations",
         "rank three",
@@ -67,7 +67,7 @@ def test_home_finds_the_motion():
         "pose",
         "points",
         "refined",
-    ]  # where the page's links go
+    ]
 
 
 def test_refining_the_pose_helps_more_than_refining_f():
@@ -149,12 +149,12 @@ def test_far_away_there_is_a_rotation_and_hardly_more():
         for seed in range(12):
             last = steps_of(run(replace(lesson.preset(name).params, seed=seed)))[-1]
             z = last.views.p_first[:, 2]
+            # before both cameras, after refinement
             ahead = (last.now.p_first[:, 2] > 0) & (
                 apply(last.now.T_second_first, last.now.p_first)[:, 2] > 0
-            )  # before both cameras, after refinement
-            sigma = (
-                np.sqrt(2) * 0.5 * z / (420 * np.cos(np.radians(20)))
-            )  # of Z over Z, beside each other, 1 m apart
+            )
+            # of Z over Z, beside each other, 1 m apart
+            sigma = np.sqrt(2) * 0.5 * z / (420 * np.cos(np.radians(20)))
             line = sampson(last.now.F, last.views.matches)
             ends.append(
                 (
@@ -172,9 +172,8 @@ def test_far_away_there_is_a_rotation_and_hardly_more():
     assert far[2] < 0.8 < 1 == home[2]  # of the points in front
     assert 0.35 < far[3] < 0.7  # of its depth is the uncertainty of a point, by parallax alone
     assert far[4] < 1.1 * home[4]  # px from their lines
-    assert (
-        1.2 < far[5] < 1.8 < 40 < home[5]
-    )  # px of parallax: little more than the noise of both pixels, 0.7
+    # px of parallax: little more than the noise of both pixels, 0.7
+    assert 1.2 < far[5] < 1.8 < 40 < home[5]
     assert min(row[6] for row in rows["far"]) > 180  # baselines
     points = of("far")[16]
     assert points.now.stage == "points"

@@ -54,9 +54,8 @@ def test_where_errors_are_independent_repetition_agrees():
 def test_where_neighbours_err_alike_it_does_not():
     assert wider(of("alike")[-1]) == pytest.approx(3.7, abs=0.1)
     assert tone("alike") == "wrong"
-    assert (
-        "too narrow" not in caption_of(lesson.draw(of("alike")[10])).text
-    )  # where the preset opens
+    # where the preset opens
+    assert "too narrow" not in caption_of(lesson.draw(of("alike")[10])).text
 
 
 def test_on_twenty_degrees_radii_scatter_to_one_side():

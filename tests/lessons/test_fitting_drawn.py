@@ -66,13 +66,11 @@ def test_contours_are_where_centres_are_equally_good():
     )
     octaves = np.log2(costs / costs.max())
     assert np.median(np.abs(octaves - octaves.round())) < 0.01
-    assert (
-        np.percentile(np.abs(octaves - octaves.round()), 97) < 0.05
-    )  # the innermost are a few cells wide
+    # the innermost are a few cells wide
+    assert np.percentile(np.abs(octaves - octaves.round()), 97) < 0.05
     assert len(np.unique(octaves.round())) >= 7
-    assert all(
-        lesson.draw(other)["valley"] is valley for other in of("escape")[::4]
-    )  # the same points, made once
+    # the same points, made once
+    assert all(lesson.draw(other)["valley"] is valley for other in of("escape")[::4])
     assert "valley" not in lesson.draw(of("sphere")[0])
 
 

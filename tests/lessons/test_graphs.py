@@ -64,10 +64,8 @@ def test_one_way_edges_are_drawn_apart():
     both, one_way = scene["edges"], scene["one-way edges"]
     assert isinstance(both, Segments)
     assert isinstance(one_way, Segments)
-    assert (len(both.ends), len(one_way.ends)) == (
-        457,
-        1043 - 457,
-    )  # as many pairs as components with one neighbour each
+    # as many pairs as components with one neighbour each
+    assert (len(both.ends), len(one_way.ends)) == (457, 1043 - 457)
 
 
 def test_given_edges_join_components_one_by_one():
@@ -289,9 +287,8 @@ def test_the_parts_of_a_layer():
         "layer",
     ]
     assert run[2].now.matrix[0, 0] == pytest.approx(1 / 17)
-    np.testing.assert_array_equal(
-        run[3].now.features, run[4].now.features
-    )  # W is the identity, nothing is negative
+    # W is the identity, nothing is negative
+    np.testing.assert_array_equal(run[3].now.features, run[4].now.features)
 
 
 def test_training_two_layers_and_eight():

@@ -86,9 +86,8 @@ class TestPresets:
         last = end(preset("slide"))
         assert last.error.rotation < 0.1
         assert last.error.translation == pytest.approx(0.314, abs=0.003)
-        assert last.scans.error(last.scans.T_start).translation == pytest.approx(
-            0.313, abs=0.001
-        )  # "as far as it started"
+        # "as far as it started"
+        assert last.scans.error(last.scans.T_start).translation == pytest.approx(0.313, abs=0.001)
         assert not last.home
 
     @pytest.mark.parametrize("name", ["slide", "symmetric"])
@@ -229,9 +228,8 @@ class TestPicture:
         poses = [scene(HOME, k)["source"].T_world_object for k in (0, 1)]
         assert not np.array_equal(poses[0], poses[1])
         again = scene(replace(HOME, start_angle=40.0), 0)
-        assert (
-            again["target"].p is scene(HOME, 0)["target"].p
-        )  # a knob does not send the target anew
+        # a knob does not send the target anew
+        assert again["target"].p is scene(HOME, 0)["target"].p
 
     def test_matches_end_at_the_points_they_join(self):
         for k in range(4):
@@ -245,9 +243,8 @@ class TestPicture:
             np.testing.assert_allclose(ends[:, 0], p, atol=1e-12)
             q = shown["target"].p[state.indices[rows]]
             np.testing.assert_allclose(ends[kept, 1], q[kept], atol=1e-12)
-            stubs = p + 0.25 * (
-                q - p
-            )  # a refused match is as long as a kept one, and would hide it
+            # a refused match is as long as a kept one, and would hide it
+            stubs = p + 0.25 * (q - p)
             np.testing.assert_allclose(ends[~kept, 1], stubs[~kept], atol=1e-12)
             np.testing.assert_array_equal(shown["matches"].color.ids == 2, ~kept)
 

@@ -92,9 +92,8 @@ class TestOwnScans:
         run = states(replace(two_files, truth=tmp_path / "pose.txt"))
         assert run[0].error.rotation == pytest.approx(35)
         assert end(run).home
-        first = run[-1].tries[
-            0
-        ]  # started at the truth, so its end as seen from the truth is no motion at all
+        # started at the truth, so its end as seen from the truth is no motion at all
+        first = run[-1].tries[0]
         np.testing.assert_allclose(first.T_target_truth[:3, :3], np.eye(3), atol=0.02)
         off = apply(first.T_target_truth, run[0].scans.frame.centre) - run[0].scans.frame.centre
         assert np.linalg.norm(off) < 10  # of about 1000

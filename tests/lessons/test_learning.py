@@ -146,9 +146,8 @@ def test_a_laplacian_of_a_hundred_is_too_much():
 def test_a_pooled_network_does_not_know_the_order_of_points():
     state = end("pooled")
     plain, changed = (state.now.scores[name] for name in ("plain", "changed"))
-    rounding = (
-        100 * np.finfo(np.float32).eps * np.abs(plain).max()
-    )  # a product's last rows are summed in another order
+    # a product's last rows are summed in another order
+    rounding = 100 * np.finfo(np.float32).eps * np.abs(plain).max()
     np.testing.assert_allclose(changed, plain, rtol=0, atol=rounding)
     assert named(state, "plain") > 0.9
     listed = end("listed")

@@ -47,9 +47,8 @@ def test_pose_says_which_camera_is_taken(tmp_path):
     uv = np.add(600 * p[:, :2] / p[:, 2:], (319.5, 239.5))
     np.savetxt(tmp_path / "own.txt", np.hstack([p, uv]))
     asked, *_, end = captions("pose", sightings=tmp_path / "own.txt")
-    assert end.endswith(
-        "f = 800 px is a guess: set your camera's."
-    )  # runs open past the first step
+    # runs open past the first step
+    assert end.endswith("f = 800 px is a guess: set your camera's.")
     assert "What is its focal length? Until you set it, 800 px is taken as a guess" in asked
     first, *others = captions("pose", sightings=tmp_path / "own.txt", focal=600.0)
     assert not any("guess" in text for text in others)

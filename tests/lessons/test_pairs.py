@@ -105,9 +105,8 @@ class TestSpace:
         assert [round(s.now.rmse, 3) for s in run_[2:5]] == [0.490, 0.437, 0.024]
         T = run_[-1].now.T_target_source
         assert run_.subject.at_home(T, run_[-1].now.scale)
-        assert run_[-1].now.rmse == pytest.approx(
-            0.01 * np.sqrt(6), rel=0.05
-        )  # "the noise of the two scans"
+        # "the noise of the two scans"
+        assert run_[-1].now.rmse == pytest.approx(0.01 * np.sqrt(6), rel=0.05)
 
     def test_noise_raises_the_rmse_and_hardly_the_turn(self):
         ends = [states(replace(Input(), noise=noise)) for noise in (0.01, 0.1)]

@@ -31,9 +31,8 @@ def test_dolly_keeps_the_crate_and_nearly_doubles_the_tower():
     assert (round(tower), round(after.tower)) == (97, 172)
     for by, expected in ((0.5, 59), (2.0, 145), (10.0, 235), (50.0, 269)):
         assert round(heights(presets.DOLLY, by)[1]) == expected
-    assert heights(presets.DOLLY, 1e6)[1] == pytest.approx(
-        5 * crate, rel=0.01
-    )  # "towards five crates"
+    # "towards five crates"
+    assert heights(presets.DOLLY, 1e6)[1] == pytest.approx(5 * crate, rel=0.01)
 
 
 def test_the_pane_keeps_its_place_and_its_size_while_the_camera_backs_off():
@@ -149,9 +148,8 @@ def test_beyond_the_fold_there_is_no_pixel():
     r = np.linalg.norm(run_[DIVIDE].now.xy, axis=1)
     np.testing.assert_array_equal(np.isfinite(run_[PIXELS].now.uv).all(axis=1), r < fold)
     folded = distort(run_[DIVIDE].now.xy, *run_.subject.lens)[r > fold]
-    assert (
-        (np.abs(folded * 200) < [160, 120]).all(axis=1).any()
-    )  # it would have landed in the picture
+    # it would have landed in the picture
+    assert (np.abs(folded * 200) < [160, 120]).all(axis=1).any()
 
 
 def test_a_lamp_behind_gets_a_pixel_well_inside_only_if_divided_anyway():

@@ -47,13 +47,8 @@ def errors_of(state: Any) -> list[float]:
 
 def test_the_default_run_ends_near_the_truth():
     run_ = states(Params())
-    assert [state.now.phase for state in run_[1:6]] == [
-        "rays",
-        "quartic",
-        "root",
-        "root",
-        "choose",
-    ]  # the page's links
+    # the page's links
+    assert [state.now.phase for state in run_[1:6]] == ["rays", "quartic", "root", "root", "choose"]
     assert run_[6].now.phase == "step"
     first, last = phase(run_, "choose"), phase(run_, "stop")
     assert off(first.T, first.subject.T_true)[0] > 10 * off(last.T, last.subject.T_true)[0]
@@ -74,9 +69,8 @@ def test_four_cameras_see_one_picture():
     ]
     assert min(apart) > 1
     drawn = draw(state)
-    assert (
-        sum(isinstance(primitive, Camera) for primitive in drawn.values()) == 5
-    )  # with the true one, on which one of them stands
+    # with the true one, on which one of them stands
+    assert sum(isinstance(primitive, Camera) for primitive in drawn.values()) == 5
 
 
 def test_on_the_danger_cylinder_noise_moves_the_answer_far():
@@ -92,9 +86,8 @@ def test_a_marker_has_two_poses_and_perspective_tells_them_apart():
     assert degrees_between(*both.now.candidates) == pytest.approx(80, abs=8)
     assert max(errors_of(both)) > 4 * min(errors_of(both))
     assert others(of("marker")).swapped == 0
-    assert 0.1 * both.subject.K[0, 0] / both.params.distance == pytest.approx(
-        80
-    )  # px, as its line says
+    # px, as its line says
+    assert 0.1 * both.subject.K[0, 0] / both.params.distance == pytest.approx(80)
 
 
 @pytest.mark.parametrize(("tilt", "low", "high"), [(40.0, 0.25, 0.6), (60.0, 0.25, 0.6)])
@@ -152,9 +145,8 @@ def test_the_street_is_known_by_its_map_and_seen_by_a_camera_in_it():
     assert share_near(others(run_), subject) == 1
     photograph = draw(run_[0])["picture"]
     assert isinstance(photograph, Picture)
-    assert (
-        len(np.unique(np.asarray(photograph.image).reshape(-1, 3), axis=0)) > 50
-    )  # the street, not a blank
+    # the street, not a blank
+    assert len(np.unique(np.asarray(photograph.image).reshape(-1, 3), axis=0)) > 50
     assert lesson.view_of(street()) != lesson.view
 
 
@@ -235,9 +227,8 @@ def test_what_the_questions_answer():
     assert answer("predict-solutions") == 1  # two
     assert answer("predict-wrong") == pytest.approx(40, abs=12)
     assert answer("predict-samples") == 293
-    assert (
-        answer("predict-few") == 1
-    )  # also by OpenCV's EPnP, which is over 5° off in twice as many
+    # also by OpenCV's EPnP, which is over 5° off in twice as many
+    assert answer("predict-few") == 1
     assert states(FEW)[-1].now.far[0] == pytest.approx(0.13, abs=0.04)
     assert answer("predict-plane") == 2
     assert needed(states(HALF), 3) == 35  # as the question says

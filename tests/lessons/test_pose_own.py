@@ -48,13 +48,11 @@ def test_a_real_board_by_ippe(tmp_path, shared_data):
     corners = np.load(shared_data / "calibration" / "corners_9x6.npz")
     path = written(tmp_path, corners["object_points"], corners["left"][0])
     last = stop_of(Params(sightings=path, method="IPPE", focal=540.0, principal=(342.0, 236.0)))
-    known = np.array(
-        [-0.0752, -0.1089, 0.3997]
-    )  # left_intrinsics.yml, the first view's translation, with its lens
+    # left_intrinsics.yml, the first view's translation, with its lens
+    known = np.array([-0.0752, -0.1089, 0.3997])
     assert np.linalg.norm(last.T[:3, 3] - known) < 0.02
-    assert (
-        last.subject.pixel_errors(last.T).mean() < 3
-    )  # what the lens, which is left out here, does to a corner
+    # what the lens, which is left out here, does to a corner
+    assert last.subject.pixel_errors(last.T).mean() < 3
 
 
 def test_the_focal_length_of_own_pixels_is_the_persons_and_decides(tmp_path):

@@ -66,9 +66,8 @@ def test_how_many_inliers_the_distances_of_the_page_keep(model):
 
 def test_the_inlier_distances_that_are_set_keep_95_percent_of_the_inliers():
     assert Input().inlier_distance / Input().noise == pytest.approx(1.96, abs=0.05)
-    assert Input().inlier_pixels / Input().noise_pixels == pytest.approx(
-        3.46, abs=0.05
-    )  # of a homography
+    # of a homography
+    assert Input().inlier_pixels / Input().noise_pixels == pytest.approx(3.46, abs=0.05)
     assert presets.PROSAC.inlier_pixels / presets.PROSAC.noise_pixels == pytest.approx(
         3.46, abs=0.05
     )
@@ -136,9 +135,8 @@ def test_an_inlier_distance_too_large():
     assert best(last).inliers[~members(states.subject)].mean() > 0.3
     assert not ends_right(states)
     assert part(drawn(states, -1 % len(states)), "caption", Caption).tone == "wrong"
-    assert (
-        Timeline(lesson, presets.LOOSE).complete()[-1].caption.tone == "info"
-    )  # it is meant to be
+    # it is meant to be
+    assert Timeline(lesson, presets.LOOSE).complete()[-1].caption.tone == "info"
 
 
 def test_msac_keeps_a_sample_nearer_to_the_truth():
@@ -180,9 +178,8 @@ def test_three_near_inliers_make_a_bad_plane():
     assert members(states.subject)[state.sample].all()
     assert np.ptp(states.subject.p[state.sample], axis=0).max() < 0.2
     assert reached(states) < 0.1
-    assert (
-        states_of(presets.NEAR)[lesson.preset("near-sample").step or 0].phase == "model"
-    )  # what it reaches comes next
+    # what it reaches comes next
+    assert states_of(presets.NEAR)[lesson.preset("near-sample").step or 0].phase == "model"
 
 
 def test_the_votes_of_two_planes_are_said_apart():

@@ -168,9 +168,8 @@ def test_weights_make_the_torus_and_cubics_miss_it():
     cubic, rational = of("cubic")[-1], of("rational")[-1]
     assert cubic.surface.worst == pytest.approx(2.8e-4, abs=1e-5)
     assert rational.surface.worst < 1e-14
-    assert (cubic.surface.mean, of("cloud")[-1].errors[-1]) == pytest.approx(
-        (6e-5, 4e-3), rel=0.06
-    )  # as the page says
+    # as the page says
+    assert (cubic.surface.mean, of("cloud")[-1].errors[-1]) == pytest.approx((6e-5, 4e-3), rel=0.06)
     assert isinstance(cubic.now, Patches)
     assert (len(cubic.now.net), cubic.bytes) == (144, 1728)
     assert (len(rational.now.net), rational.bytes) == (64, 1024)

@@ -250,9 +250,8 @@ class TestPoses:
         straight = np.linspace(origins[0], origins[-1], len(origins))
         assert np.linalg.norm(origins - straight, axis=1).max() > 0.3
         steps = [b.T_world_body @ inverse(a.T_world_body) for a, b in itertools.pairwise(run)]
-        np.testing.assert_allclose(
-            steps, np.broadcast_to(steps[0], (len(steps), 4, 4)), atol=1e-12
-        )  # one screw all along
+        # one screw all along
+        np.testing.assert_allclose(steps, np.broadcast_to(steps[0], (len(steps), 4, 4)), atol=1e-12)
         drawn = [scene(NAME, "screw", k)["axis"].ends[0] for k in range(1, 31)]
         along = drawn[0][1] - drawn[0][0]
         for line in drawn:

@@ -39,7 +39,6 @@ def test_a_term_names_a_thing_that_is_drawn(lesson):
         if terms <= drawn:
             break
         paths = {path for step in finished(lesson.name, params).known() for path in step.scene}
-        drawn |= paths | {
-            path.rpartition("/")[0] for path in paths
-        }  # a term may light all below one name
+        # a term may light all below one name
+        drawn |= paths | {path.rpartition("/")[0] for path in paths}
     assert not terms - drawn

@@ -38,9 +38,8 @@ def course_drawn() -> tuple[dict[str, tuple[str, ...]], dict[str, list[str]]]:
 def test_a_lesson_stands_right_of_all_that_it_needs():
     at = depths(NEEDS)
     assert [at[name] for name in "abcde"] == [0, 1, 0, 2, 1]
-    assert (
-        at["f"] < at["g"]
-    )  # a ring of needs: the one that stands first in the course waits for nobody
+    # a ring of needs: the one that stands first in the course waits for nobody
+    assert at["f"] < at["g"]
 
 
 def test_every_lesson_has_a_place_of_its_own_in_the_band_of_its_chapter():

@@ -14,9 +14,8 @@ from workbench.run.timeline import Timelines
 from workbench.scene import PALETTE, Points, Segments
 from workbench.story import story_of
 
-VIEW = View(
-    eye=(0.0, -4.0, 0.0), target=(0.0, 0.0, 0.0), fov_degrees=53.130102
-)  # at 4 m it sees 4 m of height
+# at 4 m it sees 4 m of height
+VIEW = View(eye=(0.0, -4.0, 0.0), target=(0.0, 0.0, 0.0), fov_degrees=53.130102)
 
 
 class Kept(Timelines):
@@ -38,9 +37,8 @@ def middle_of(picture: np.ndarray, role: str) -> tuple[float, float]:
 
 
 def test_what_is_right_is_right_and_what_is_up_is_up():
-    frame = np.array(
-        [[[-3.2, 0, -2.0], [3.2, 0, -2.0]], [[-3.2, 0, 2.0], [3.2, 0, 2.0]]]
-    )  # the whole picture
+    # the whole picture
+    frame = np.array([[[-3.2, 0, -2.0], [3.2, 0, -2.0]], [[-3.2, 0, 2.0], [3.2, 0, 2.0]]])
     T_world_moved = np.eye(4)
     T_world_moved[:3, 3] = (-1.6, 0.0, -1.0)
     scene = {

@@ -76,9 +76,8 @@ def test_the_dark_ground_is_that_of_the_page_and_of_its_scene():
 def test_an_svg_has_a_circle_for_each_point_and_a_line_for_each_segment(icp):
     style = Style(width=700, chart=False)
     moment = icp.moment(3, style)
-    inside = {
-        path: primitive for path, primitive in moment.scene.items() if path != "grid"
-    }  # goes beyond
+    # goes beyond
+    inside = {path: primitive for path, primitive in moment.scene.items() if path != "grid"}
     moment = replace(moment, scene=inside)
     root = ElementTree.fromstring(svg_of(moment, style))
     (vectors,) = (group for group in root.iter(f"{SVG}g") if group.get("class") == "vectors")

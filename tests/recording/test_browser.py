@@ -62,9 +62,8 @@ class Window:
                 last = self.folder / "last.png"
                 Image.fromarray(picture.astype(np.uint8)).save(last)
                 raise AssertionError(f"the picture never came to show what it should: {last}")
-            self.page.mouse.move(
-                WIDTH - 60, HEIGHT - 14 + look % 2
-            )  # the viewer sleeps until something happens
+            # the viewer sleeps until something happens
+            self.page.mouse.move(WIDTH - 60, HEIGHT - 14 + look % 2)
             if key and look % 8 == 0:
                 self.page.keyboard.press(key)
             self.page.wait_for_timeout(250)

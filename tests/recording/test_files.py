@@ -154,9 +154,8 @@ def test_what_a_killed_record_left_is_removed_by_the_next(tmp_path):
     )
     assert killed.returncode == -signal.SIGKILL
     (left,) = os.listdir(tmp_path)
-    ours = left.replace(
-        f"-{re.findall('-([0-9]+)-', left)[0]}-", f"-{os.getpid()}-"
-    )  # of a process that lives
+    # of a process that lives
+    ours = left.replace(f"-{re.findall('-([0-9]+)-', left)[0]}-", f"-{os.getpid()}-")
     for name in (ours, ".mine.part", "a.rrd.part"):
         (tmp_path / name).touch()
     record(fake.lesson, tmp_path / "a.rrd")

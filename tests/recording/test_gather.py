@@ -87,6 +87,5 @@ def test_a_large_union_is_thinned_evenly_and_stays_the_same_from_step_to_step(mo
 
 def test_a_stereo_run_is_small():
     lesson = catalog()["disparity"]
-    assert (
-        len(record_bytes(Timeline(lesson, lesson.params()).complete())) < 2_700_000
-    )  # it had 9 MB
+    # it had 9 MB
+    assert len(record_bytes(Timeline(lesson, lesson.params()).complete())) < 2_700_000

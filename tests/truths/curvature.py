@@ -122,9 +122,8 @@ def on_the_torus(run: Run, *_) -> bool:
 
 def regular(run: Run, *_) -> bool:
     s = study(run)
-    return (
-        abs(error_of_K(run) - 0.0013) < 5e-5 and -1.15 < slope(s.K, s.counts) < -0.85
-    )  # edges go with the root of the vertices
+    # edges go with the root of the vertices
+    return abs(error_of_K(run) - 0.0013) < 5e-5 and -1.15 < slope(s.K, s.counts) < -0.85
 
 
 def params(run: Run, **changes) -> Input:

@@ -28,9 +28,8 @@ def half_size(params: Params) -> np.ndarray:
 def distance(params: Params, q: np.ndarray) -> np.ndarray:
     """How far points are from the true surface, negative inside; of the rabbit without a sign."""
     if shape_of(params) == "torus":
-        along = np.where(
-            q[:, :2].any(axis=1, keepdims=True), q[:, :2], [1.0, 0.0]
-        )  # from the axis any way is as far
+        # from the axis any way is as far
+        along = np.where(q[:, :2].any(axis=1, keepdims=True), q[:, :2], [1.0, 0.0])
         on_ring = 0.6 * along / np.linalg.norm(along, axis=1, keepdims=True)
         return np.linalg.norm(q - np.column_stack([on_ring, np.zeros(len(q))]), axis=1) - 0.25
     if params.shape == "rabbit":

@@ -75,9 +75,8 @@ def test_a_lesson_that_blocks_for_ever_does_not_keep_ctrl_c_from_ending_a_server
             await page.say(verb="seek", k=4)
             async with httpx.AsyncClient(base_url=address, trust_env=False) as browser:
                 with contextlib.suppress(httpx.ReadTimeout):
-                    await browser.get(
-                        "picture/blocks", timeout=0.5
-                    )  # the thread that makes pictures blocks as well
+                    # the thread that makes pictures blocks as well
+                    await browser.get("picture/blocks", timeout=0.5)
             with pytest.raises(TimeoutError):
                 await page.until(lambda page: page.step.get("k") == 4, 0.5)
             await page.seek(1)

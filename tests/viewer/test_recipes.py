@@ -260,9 +260,8 @@ def test_before_several_servers_a_page_and_its_scene_meet(tmp_path):
             *(visitor(port, "?lesson=transforms").open() for _ in range(12))
         )
         for page in pages:
-            await page.until(
-                lambda page: page.step and page.scene_bytes > 1000
-            )  # a scene that nobody met is empty
+            # a scene that nobody met is empty
+            await page.until(lambda page: page.step and page.scene_bytes > 1000)
         shares = [len(server.students) for server in servers]
         await asyncio.gather(*(page.close() for page in pages))
         return shares

@@ -241,9 +241,8 @@ def test_no_wish_link_or_knob_opens_a_file(server):
             for name, path in itertools.product(
                 [field.name for field in fields_of(lesson.params) if field.sensitive], paths
             ):
-                await bad.say(
-                    verb="change", values={name: path}
-                )  # one by one: else the next takes its place
+                # one by one: else the next takes its place
+                await bad.say(verb="change", values={name: path})
                 await bad.seek(0)
         await bad.say(verb="open", query=HERE, lesson="fake")
         await bad.seek(1)

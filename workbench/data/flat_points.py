@@ -15,9 +15,8 @@ from workbench.data.thinning import evenly
 from workbench.errors import InputError
 from workbench.geometry.shapes.algebraic_fits import fit_algebraic
 
-WIDTH = (
-    2.0  # metres that points are long in the picture, where nothing round says how large they are
-)
+# metres that points are long in the picture, where nothing round says how large they are
+WIDTH = 2.0
 LARGEST = 3.0  # times as large as the points a circle may be that they are shown by
 LOOK = 100_000  # signs at the beginning of a file that tell how many columns it has
 _TEXT = (".xyz", ".txt", ".csv", ".tsv", ".dat")

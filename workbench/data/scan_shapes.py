@@ -21,10 +21,9 @@ Cloud = Float[np.ndarray, "n 3"]
 Sample = Callable[[int, np.random.Generator], Cloud]
 """Draws so many points of a shape."""
 
-LOW, GAP = (
-    0.4,
-    0.2,
-)  # metres: the least side of the box, and what lies between two scans in the picture
+# metres: the least side of the box, and what lies between two scans in the picture
+LOW = 0.4
+GAP = 0.2
 
 
 def sampler(shape: str, side: float = 0.6) -> Sample:

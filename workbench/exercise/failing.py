@@ -35,9 +35,8 @@ def record_failing(
             return None
         timeline, at = failing
         states = [step.state for step in timeline.known()][max(0, at - 1) :]
-        ended = replace(
-            timeline.lesson, run=lambda params, subject: iter(states)
-        )  # of the second form: `driven`
+        # of the second form: `driven`
+        ended = replace(timeline.lesson, run=lambda params, subject: iter(states))
         shown = Timeline(ended, timeline.params).complete()
     out = path.with_suffix(".rrd") if out is None else out
     try:

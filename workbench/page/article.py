@@ -41,10 +41,11 @@ def article_html(lesson: Lesson, address: Address, home: str) -> str:
             picture that is not there.
     """
     told = has_story(lesson)
+    # a table would cut there
     written = TERM.sub(
         lambda match: match[0].replace("|", r"\|"),
         wording(bench_text(lesson) if told else ASKED.sub(r"\nask!\1!\n\n", lesson.text()), home),
-    )  # a table would cut there
+    )
     text = page_of(written, lesson.page).replace(
         '<div class="math block">', '<div class="math block" tabindex="0">'
     )

@@ -100,9 +100,8 @@ class Steps:
         key = (start, known)
         with self._lock:
             if key not in self._series:
-                self._series = dict(
-                    tuple(self._series.items())[-7:]
-                )  # of those who follow a run as it grows
+                # of those who follow a run as it grows
+                self._series = dict(tuple(self._series.items())[-7:])
                 self._series[key] = {
                     "from": start,
                     "series": series_of(series, start),

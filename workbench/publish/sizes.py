@@ -10,12 +10,10 @@ from workbench.page.bundles import COMPUTING, SITE_STORY
 from workbench.publish.runs import PAGE
 
 COURSE_PAGE = "index.html"
-PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = (
-    300_000,
-    1_000_000,
-    4_000_000,
-    3_000_000,
-)
+PAGE_BUDGET = 300_000
+PICTURES_BUDGET = 1_000_000
+REPLAY_BUDGET = 4_000_000
+RECORDING_BUDGET = 3_000_000
 TOLD_BUDGET = 420_000
 """Of a page with a story: it has two faces, and the scripts of both."""
 COMPUTING_BUDGET = 40_000

@@ -243,9 +243,8 @@ def _asked(
     values, flags = finder.parse_known_intermixed_args([word for word in words if word not in HELP])
     name = values.lesson
     if name is not None and name != words[0] and name not in catalog():
-        behind = words[
-            words.index(name) - 1
-        ]  # a flag of a lesson's params, whose value this may be
+        # a flag of a lesson's params, whose value this may be
+        behind = words[words.index(name) - 1]
         if behind in flags or not is_path(name):
             name = next((word for word in flags if word in catalog()), None)
     return name, values.preset

@@ -69,13 +69,11 @@ class Session:
         self.slots = dict(slots or {})
         self.timelines = Timelines() if timelines is None else timelines
         self.message: str | None = None
-        self._shown: Timeline | None = (
-            None  # the run whose picture stays until the wanted one has a first step
-        )
+        # the run whose picture stays until the wanted one has a first step
+        self._shown: Timeline | None = None
         self._last_k = 0
-        self._aside: Any = (
-            None  # params with the person's own files, while a run without them is open
-        )
+        # params with the person's own files, while a run without them is open
+        self._aside: Any = None
         self.params = lesson.params()
         self.timeline = self._run(self.params)
         self._start(f"lesson {lesson.name}", lesson.opens)

@@ -69,9 +69,8 @@ class Timeline:
     ):
         self.lesson, self.params = lesson, lesson.validated(params)
         self.finished = False
-        self.stopped: str | None = (
-            None  # why the run ended before its end, in one line for a person
-        )
+        # why the run ended before its end, in one line for a person
+        self.stopped: str | None = None
         self.failure: str | None = None  # the traceback of an error in the lesson's own code
         self.bytes = 0
         self._steps: list[Step] = []
@@ -82,9 +81,8 @@ class Timeline:
         self._watched = watched(self.params, self._read.add)
         self._subject: Any = None
         self._states: list[Any] = []
-        self._generator: Iterator[Any] | None = (
-            None  # made with the first step: whatever `run` raises is told there
-        )
+        # made with the first step: whatever `run` raises is told there
+        self._generator: Iterator[Any] | None = None
         self._shown: dict[str, Primitive] = {}  # by path, what a step showed last
         self._lock = threading.Lock()
         self._owners: dict[int, np.ndarray] = {}

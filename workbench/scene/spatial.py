@@ -226,9 +226,8 @@ def is_rigid(T: np.ndarray) -> bool:
     last = T[3].tolist()
     if last != [0.0, 0.0, 0.0, 1.0]:
         return False
-    (a, b, c), (d, e, f), (g, h, i) = (
-        rows  # in plain numbers: numpy takes 70 times as long for so few
-    )
+    # in plain numbers: numpy takes 70 times as long for so few
+    (a, b, c), (d, e, f), (g, h, i) = rows
     lengths = a * a + b * b + c * c, d * d + e * e + f * f, g * g + h * h + i * i
     products = a * d + b * e + c * f, a * g + b * h + c * i, d * g + e * h + f * i
     orthonormal = all(abs(length - 1.0) <= 1e-5 for length in lengths) and all(

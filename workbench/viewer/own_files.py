@@ -42,9 +42,8 @@ class OwnFiles:
             handed_to_a_page(self._folder)
         self._number += 1
         ending = _ENDING.search(name)
-        place = self._folder / str(
-            self._number
-        )  # a path of its own: equal params mean an equal run
+        # a path of its own: equal params mean an equal run
+        place = self._folder / str(self._number)
         place.mkdir()
         path = place / f"{field}{ending[0].lower() if ending else ''}"
         size = 0

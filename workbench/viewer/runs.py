@@ -156,9 +156,8 @@ class SharedRuns:
         """
         lessons = tuple(lessons)
         freed = False
-        at_most = (
-            self.timelines.bytes + self.maker.held()
-        )  # arrays that two runs share are counted twice
+        # arrays that two runs share are counted twice
+        at_most = self.timelines.bytes + self.maker.held()
         if at_most < self._most_bytes // 2:
             return at_most
         while (held := self.held(lessons)) > self._most_bytes and self.timelines.drop():

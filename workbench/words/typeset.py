@@ -283,11 +283,8 @@ def _subset() -> bytes:
     options = subset.Options(
         layout_features=features, hinting=False, notdef_outline=True, drop_tables=["DSIG"]
     )
-    options.name_IDs += [
-        7,
-        13,
-        14,
-    ]  # trademark, licence and its address: who hands the font on has to
+    # trademark, licence and its address: who hands the font on has to
+    options.name_IDs += [7, 13, 14]
     subsetter = subset.Subsetter(options)
     with TTFont(path) as font:
         subsetter.populate(unicodes=chosen)

@@ -50,11 +50,8 @@ def spherical_from_cartesian(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "
 
 
 ANGLES = "r = |p|, polar = atan2(√(x² + y²), z), azimuth = atan2(y, x)."
-LOST = (
-    1.02e-8,
-    1.03e-8,
-    1.04e-8,
-)  # radians: about the largest angles whose cosine is 1 in double precision
+# radians: about the largest angles whose cosine is 1 in double precision
+LOST = (1.02e-8, 1.03e-8, 1.04e-8)
 AXIS = "Near the axis arccos has no digits left: atan2(√(x² + y²), z) has."
 
 

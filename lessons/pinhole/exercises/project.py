@@ -91,11 +91,9 @@ def in_pixels(uv: np.ndarray, right: np.ndarray, hint: str) -> Verdict:
     """Judge pixels by the largest distance to the right ones; a row that should be NaN and is not,
     or the reverse, fails.
     """
-    seen, given, unknown = (
-        np.isfinite(right).all(axis=1),
-        np.isfinite(uv).all(axis=1),
-        np.isnan(uv).all(axis=1),
-    )
+    seen = np.isfinite(right).all(axis=1)
+    given = np.isfinite(uv).all(axis=1)
+    unknown = np.isnan(uv).all(axis=1)
     if (lost := np.flatnonzero(seen & ~given)).size:
         k = lost[0]
         told = f"Row {k} is {against(uv[k], right[k])}. {hint}"

@@ -124,10 +124,8 @@ def _principal(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _bends(run: Run, k: int, m: re.Match[str]) -> bool:
-    k1, k2 = (
-        run.states[k].now.k1[run.states[k].now.vertex],
-        run.states[k].now.k2[run.states[k].now.vertex],
-    )
+    k1 = run.states[k].now.k1[run.states[k].now.vertex]
+    k2 = run.states[k].now.k2[run.states[k].now.vertex]
     signs = {np.sign(x) for x in (k1, k2) if abs(x) > 1e-5}
     return {
         "to both sides, as on a saddle": signs == {-1.0, 1.0},

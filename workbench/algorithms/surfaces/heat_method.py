@@ -22,9 +22,8 @@ from workbench.tracing import traced
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
-SHIFT = (
-    1e-10  # of the Laplacian's diagonal, so that it can be factored: constants cost next to nothing
-)
+# of the Laplacian's diagonal, so that it can be factored: constants cost next to nothing
+SHIFT = 1e-10
 
 
 def mean_edge_length(p: Points, faces: Faces) -> float:

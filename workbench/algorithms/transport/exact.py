@@ -23,9 +23,8 @@ from workbench.geometry.points.nearest import check_clouds
 Cloud = Float[np.ndarray, "n 3"]
 
 FEW_COPIES = 250
-MOST_UNEQUAL = (
-    250_000  # entries of the cost where the counts differ: a linear programme, a few seconds
-)
+# entries of the cost where the counts differ: a linear programme, a few seconds
+MOST_UNEQUAL = 250_000
 
 _BLURS = ((0.05, 5), (0.01, 10), (0.002, 25))  # share of the median cost, sweeps
 _FINER_BLURS = ((0.05, 20), (0.02, 30), (0.01, 50), (0.005, 80), (0.002, 100))

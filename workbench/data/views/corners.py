@@ -26,9 +26,8 @@ from workbench.errors import InputError
 from workbench.numerals import counted
 
 MOST_VIEWS, MOST_POINTS = 40, 1000
-STRETCHED = (
-    0.01  # share by which the shape of a picture may differ from that which corners were found in
-)
+# share by which the shape of a picture may differ from that which corners were found in
+STRETCHED = 0.01
 Which = Literal["first", "second"]
 _BOARD = ("object_points", "p_board", "board")
 _PIXELS = (
@@ -304,9 +303,8 @@ def _from_text(path: Path) -> Corners:
         raise InputError(f"{path.name}: no lines view X Y u v")
     table = np.array(list(views.values()))
     known: np.ndarray = np.asarray(np.isfinite(table).all(axis=2))
-    first = table[
-        known.argmax(axis=0), np.arange(table.shape[1]), :2
-    ]  # of each point, in the first view that has it
+    # of each point, in the first view that has it
+    first = table[known.argmax(axis=0), np.arange(table.shape[1]), :2]
     if np.abs(table[:, :, :2] - first)[known].max(initial=0.0) > 0:
         raise InputError(
             f"{path.name}: the views do not list the same points of the board in the same order"

@@ -181,10 +181,8 @@ def own_views(
             f"{matches.name} has no K: give it as a file too (fx fy cx cy, or three rows), or as K"
             " in an npz"
         )
-    (image_first, size_first, k_first), (image_second, size_second, k_second) = (
-        _shown(first_image, given.p[:, :2]),
-        _shown(second_image, given.p[:, 2:]),
-    )
+    image_first, size_first, k_first = _shown(first_image, given.p[:, :2])
+    image_second, size_second, k_second = _shown(second_image, given.p[:, 2:])
     return TwoViews(
         images=(image_first, image_second),
         sizes=(size_first, size_second),

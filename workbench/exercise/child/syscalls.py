@@ -112,19 +112,16 @@ CHANGE: dict[str, Numbers] = {
     "fdatasync": (75, 83),
 }
 
-ALL = (
-    0xFFFFFFFF  # bits of a word; argument k, from 0, is the words 2 k and, its upper half, 2 k + 1
-)
+# bits of a word; argument k, from 0, is the words 2 k and, its upper half, 2 k + 1
+ALL = 0xFFFFFFFF
 CHANGING = 0x3 | 0x40 | 0x200  # O_ACCMODE, O_CREAT, O_TRUNC
 READ_ONLY: dict[str, tuple[Way, ...]] = {
     "open": (((2, CHANGING, (0,)),),),
     "openat": (((4, CHANGING, (0,)),),),
 }
 # the one that makes a thread; all that the C libraries give for one
-CLONE_THREAD, OF_THREADS = (
-    0x10000,
-    0x7D0F00,
-)
+CLONE_THREAD = 0x10000
+OF_THREADS = 0x7D0F00
 O_ASYNC = 0x2000
 MAY_IF: dict[str, tuple[Numbers, tuple[Way, ...]]] = {
     # name: its numbers, and the ways in which it may be called
@@ -165,13 +162,11 @@ MACHINES = {
 }
 NUMBER, ARCHITECTURE, WORDS = 0, 4, 16  # where struct seccomp_data has them
 # BPF: take a word, mask it, jump if, end
-LOAD, AND, EQUAL, AT_LEAST, RETURN = (
-    0x20,
-    0x54,
-    0x15,
-    0x35,
-    0x06,
-)
+LOAD = 0x20
+AND = 0x54
+EQUAL = 0x15
+AT_LEAST = 0x35
+RETURN = 0x06
 ALLOW = 0x7FFF0000
 EPERM = 0x00050001
 ENOSYS = 0x00050000 | 38

@@ -95,9 +95,8 @@ def with_points_on_edges(
     a, b = p[own[:, 0], None], p[own[:, 1], None]
     nodes = np.concatenate([p, (a + t * (b - a)).reshape(-1, 3)])
     index = {k: np.searchsorted(meshes.edge_keys(own), _keys(faces, k)) for k in range(3)}
-    on = [
-        len(p) + count * index[k][:, None] + np.arange(count) for k in range(3)
-    ]  # (f, count): of the edge opposite k
+    # (f, count): of the edge opposite k
+    on = [len(p) + count * index[k][:, None] + np.arange(count) for k in range(3)]
     pairs = [_chains(own, len(p), count)]
     for k in range(3):
         first = on[k]

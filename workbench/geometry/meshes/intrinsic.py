@@ -97,12 +97,8 @@ class _Sides:
         turn = self._angle(h) + self._angle(ad)
         diagonal = sqrt(max(long**2 + wide**2 - 2 * long * wide * cos(turn), 0.0))
         c, d = self.start[ca], self.start[db]
-        moved = {
-            ca: bc,
-            ad: ca,
-            db: ad,
-            bc: db,
-        }  # from where to where the four sides round the edge go
+        # from where to where the four sides round the edge go
+        moved = {ca: bc, ad: ca, db: ad, bc: db}
         old = {side: (self.start[side], self.length[side], self.twin[side]) for side in moved}
         for side, place in moved.items():
             self.start[place], self.length[place], other = old[side]

@@ -16,10 +16,8 @@ def other_places(candidate: Function) -> Verdict:
     b = places(GRADERS() + 1, 12)
     a[:3] = [[10.0, 179.5], [-40.0, 170.0], [89.0, 0.0]]
     b[:3] = [[12.0, -179.0], [-41.0, -170.0], [88.0, 180.0]]
-    b[3] = (
-        -a[3, 0] + 0.05,
-        a[3, 1] + 180.02 - 360.0 * (a[3, 1] > 0),
-    )  # some kilometres from the antipode
+    # some kilometres from the antipode
+    b[3] = (-a[3, 0] + 0.05, a[3, 1] + 180.02 - 360.0 * (a[3, 1] > 0))
     return worst((judged(candidate, a, b), judged(candidate, a, b, 0.005)))
 
 

@@ -105,9 +105,8 @@ def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
     first = np.concatenate(
         [[[3.0, 0, 0]], ball.p[:7], [[0, 3.0, 0]], ball.p[7:], [[0, 0, 3.0], [1, 3.0, 0]]]
     )
-    shifted = ball.faces + np.where(
-        ball.faces < 7, 1, 2
-    )  # four vertices without faces, wherever they stand
+    # four vertices without faces, wherever they stand
+    shifted = ball.faces + np.where(ball.faces < 7, 1, 2)
     verdicts.append(defects_verdict(candidate, (first, shifted), DEFECT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*box(GRADERS())), FLAT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*ALONG_THE_DIAGONAL), FLAT_HINT))

@@ -44,9 +44,8 @@ def equal_descriptors(candidate: Function) -> Verdict:
     rng = np.random.default_rng(GRADERS() + 30)
     b = rng.permutation(np.arange(40.0).reshape(10, 4) ** 2 % 37)
     a = b[[3, 3, 0, 7, 5, 5, 5, 0, 1]] + np.array([1.0, 1, 0, 0, 2, 2, 2, 2, 12])[:, None]
-    twice = np.concatenate(
-        [b[:8], b[7:], b[[3]]]
-    )  # one of two equal rows follows the other, and one stands last
+    # one of two equal rows follows the other, and one stands last
+    twice = np.concatenate([b[:8], b[7:], b[[3]]])
     verdicts = [
         judged(candidate, a, b, 0.5, "Equal rows of a"),
         judged(candidate, a, twice, 0.5, "Equal rows of b"),

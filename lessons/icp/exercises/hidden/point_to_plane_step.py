@@ -57,9 +57,8 @@ def sliding(candidate: Function) -> Verdict:
             candidate(place + 0.07 * normal, place, normal), shift, f"One pair. {hint}", p=place
         )
     )
-    walls = np.array(
-        [[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]]
-    )  # two and two, seen from the middle
+    # two and two, seen from the middle
+    walls = np.array([[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]])
     p_walls = 1.5 * walls
     both = motion(np.eye(3), np.array([0.03, -0.05, 0.0]))
     moved = p_walls + np.abs(walls) * [0.03, -0.05, 0.0]

@@ -111,9 +111,8 @@ def numbers_at_the_ends(candidate: Function) -> Verdict:
     weights = weights_of(candidate(triangle, faces, u), triangle)
     single = weights_of(candidate(triangle, faces, np.array([[0.2, 0.5, 0.3]])), triangle)
     off = float(-min(weights.min(), single.min()))
-    p = np.concatenate(
-        [[[0.0, 0, z], [1, 0, z], [0, 1, z]] for z in range(10)]
-    )  # ten times a tenth is not quite 1
+    # ten times a tenth is not quite 1
+    p = np.concatenate([[[0.0, 0, z], [1, 0, z], [0, 1, z]] for z in range(10)])
     x, y, z = candidate(p, np.arange(30).reshape(10, 3), u).T
     off = max(
         off, float(-np.min([x, y, 1 - x - y])), float(np.abs(z - np.rint(np.clip(z, 0, 9))).max())

@@ -87,9 +87,10 @@ def of_small_things(candidate: Function) -> Verdict:
     are not.
     """
     Ts, p_world, xy = several(GRADERS() + 60)
+    # right: last
     near = Ts[
         np.argsort(np.abs(Ts - camera_search.choose_pose(Ts, p_world, xy)).sum(axis=(1, 2)))[::-1]
-    ]  # right: last
+    ]
     verdicts = []
     for size in (5e-3, 1e-4):
         small = near.copy()
@@ -97,9 +98,8 @@ def of_small_things(candidate: Function) -> Verdict:
         verdicts.append(
             judged(candidate, small, size * p_world, xy, "Z > 0 is in front, however near.")
         )
-    p = np.array(
-        [[0.0, 0.0, 0.0], [0.5, 0.25, 1.0], [-0.25, 0.5, 2.0]]
-    )  # the first is at Z = 0 for the first pose
+    # the first is at Z = 0 for the first pose
+    p = np.array([[0.0, 0.0, 0.0], [0.5, 0.25, 1.0], [-0.25, 0.5, 2.0]])
     Ts = np.stack([np.eye(4), np.eye(4)])
     Ts[1, :3, 3] = 0.5, 0.5, 1.0
     xy = np.array([[0.0, 0.0], [0.5, 0.25], [-0.125, 0.25]])
@@ -115,12 +115,10 @@ def none_in_front(candidate: Function) -> Verdict:
     Ts, p_world, xy = with_twin(GRADERS() + 40)
     behind = np.stack([Ts[0], np.diag([-1.0, 1.0, -1.0, 1.0]) @ Ts[1]])
     amid = half_behind(GRADERS() + 41)
-    none = (
-        np.diag([-1.0, 1.0, -1.0, 1.0]) @ amid[0][1]
-    )  # it sees all points turned round, behind it
-    more = np.stack(
-        [none, amid[0][0], none + np.eye(4, k=3)]
-    )  # none, most and none of the points in front
+    # it sees all points turned round, behind it
+    none = np.diag([-1.0, 1.0, -1.0, 1.0]) @ amid[0][1]
+    # none, most and none of the points in front
+    more = np.stack([none, amid[0][0], none + np.eye(4, k=3)])
     hint = "None is in front: return the first."
     cases = ((behind[::-1].copy(), p_world, xy), (more, *amid[1:]), (behind[:1], p_world, xy))
     return worst(judged(candidate, *case, hint) for case in cases)

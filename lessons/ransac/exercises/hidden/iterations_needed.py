@@ -31,9 +31,8 @@ def the_smallest_that_is_enough(candidate: Function) -> Verdict:
     more.
     """
     rng = np.random.default_rng(GRADERS() + 70)
-    exact = [
-        (0.5, 1, 1 - 0.5**n) for n in (1, 2, 4, 8)
-    ]  # n samples are just enough, and logarithms say so exactly
+    # n samples are just enough, and logarithms say so exactly
+    exact = [(0.5, 1, 1 - 0.5**n) for n in (1, 2, 4, 8)]
     exact += [
         (0.9, 1, 0.5),
         (0.99, 2, 0.9999),

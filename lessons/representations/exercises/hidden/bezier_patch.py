@@ -33,10 +33,8 @@ def none_and_edges(candidate: Function) -> Verdict:
     rng = np.random.default_rng(GRADERS() + 2)
     if len(candidate(a_net(rng), np.empty((0, 2)))):
         return rows_verdict(np.ones(1), np.zeros(1), lambda k: "No places came in, points", HINT)
-    edge, end = (
-        np.column_stack([np.zeros(8), rng.random(8)]),
-        np.column_stack([np.ones(8), rng.random(8)]),
-    )
+    edge = np.column_stack([np.zeros(8), rng.random(8)])
+    end = np.column_stack([np.ones(8), rng.random(8)])
     edges = (edge, edge[:, ::-1].copy(), end, end[:, ::-1].copy())
     verdicts = [verdict(candidate, a_net(rng), uv, "Along an edge") for uv in edges]
     return worst([verdict(candidate, a_net(rng), edge[:1] + 0.3, "A single place"), *verdicts])
