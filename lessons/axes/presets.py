@@ -15,7 +15,8 @@ NEARLY = Input(shape="box", fresh=True, side=0.99)
 FRAMES = Input(stage="frames")
 STARTS = Input(stage="starts", fresh=True)
 
-VIEW = View(eye=(-0.75, -2.55, 1.1), target=(-0.62, 0.0, 0.12), grid=None, axes=False)
+VIEW = View(eye=(-0.38, -3.2, 1.3), target=(-0.25, 0.0, 0.1), grid=None, axes=False)
+BOTH = View(eye=(-0.75, -2.55, 1.1), target=(-0.62, 0.0, 0.12), grid=None, axes=False)
 TOGETHER = View(eye=(-0.95, -2.3, 1.1), target=(-1.1, 0.0, 0.2), grid=None, axes=False)
 WIDE = View(eye=(-1.7, -2.9, 1.7), target=(-0.75, 0.0, 0.3), grid=None, axes=False)
 APART = View(eye=(-1.1, -3.6, 1.8), target=(-1.25, 0.0, 0.1), grid=None, axes=False)
@@ -27,7 +28,7 @@ GLOBE = View(eye=(-0.9, -2.75, 0.95), target=(-1.15, 0.0, 0.05), grid=None, axes
 VIEWS = {
     "flat": FRONT,
     "aside": ASIDE,
-    "both": VIEW,
+    "both": BOTH,
     "matrix": MATRIX,
     "four": FOUR,
     "globe": GLOBE,
