@@ -158,6 +158,25 @@ def test_what_was_raised_is_kept_by_python_s_own_name():
     assert str(told.value) == "<lambda> raised LinAlgError: no"
 
 
+@pytest.mark.parametrize(
+    ("error", "kept"),
+    [
+        (StudentError("x", "raised", "Mine", errors=("Mine", "IndexError")), "IndexError"),
+        (StudentError("x", "raised", "Mine"), "Mine"),
+        (StudentError("it took too long", "timeout"), "timeout"),
+    ],
+)
+def test_an_error_that_came_from_a_student_s_process_is_kept_by_python_s_own_name(error, kept):
+    def failing():
+        raise error
+
+    candidate = Candidate(failing, lambda: 1.0)
+    with pytest.raises(StudentError) as told:
+        candidate()
+    assert told.value is error
+    assert (candidate.calls[-1].answer.value, candidate.calls[-1].answer.error) == (None, kept)
+
+
 def test_a_call_is_known_again_by_what_was_asked():
     candidate = Candidate(lambda *args: 1.0, lambda *args: 1.0)
     for args in ((np.zeros(4), 1), (np.zeros(4), 1), (np.zeros((2, 2)), 1), (np.zeros(4, int), 1)):
