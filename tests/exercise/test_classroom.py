@@ -123,6 +123,36 @@ def test_a_result_that_was_half_written_is_graded_again(tmp_path):
     assert json.loads(kept.read_text())["student"] == "student000"
 
 
+def test_a_result_that_another_version_wrote_is_graded_again(tmp_path):
+    write_class(tmp_path / "in", 1)
+    classroom.grade_class(tmp_path / "in", tmp_path / "out")
+    kept = tmp_path / "out" / "students" / "student000.json"
+    older = json.loads(kept.read_text()) | {"schema": 0, "reports": []}
+    kept.write_text(json.dumps(older))
+    (result,) = classroom.grade_class(tmp_path / "in", tmp_path / "out")
+    assert result["reports"][0]["points"] == 4.0
+
+
+@pytest.mark.parametrize(
+    ("text", "code"), [("def centroid(p:", 2), ("def centroid(p): return 0 * p[0]", 1)]
+)
+def test_its_exit_code_says_whether_anybody_could_be_graded(tmp_path, text, code):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "ada.py").write_text(f"import numpy as np\n{text}\n")
+    tell = io.StringIO()
+    asked = Asked(sandbox="none")
+    ended = classroom.grade_folder(
+        tmp_path / "in",
+        tmp_path / "out",
+        asked=asked,
+        jobs=1,
+        dask=None,
+        tell=tell,
+        result=tell,
+    )
+    assert ended == code
+
+
 def test_where_results_cannot_be_written_that_is_told_before_anybody_is_graded(tmp_path):
     write_class(tmp_path / "in", 1)
     (tmp_path / "out").write_text("mine")

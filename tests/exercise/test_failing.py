@@ -53,7 +53,14 @@ def test_the_recording_lies_beside_the_file_or_where_it_is_wanted(handed, tmp_pa
     exercise = find_exercise("align_rigid")
     beside = record_failing(exercise, handed)
     assert beside == tmp_path / "mine.rrd"
-    assert open_recording(beside).complete
+    recording = open_recording(beside)
+    assert recording.complete
+    with SandboxedFunction(handed, "align_rigid") as student:
+        run = failing_run(exercise, student)
+    assert run is not None
+    timeline, at = run
+    last_alike = timeline[at - 1].caption.text
+    assert (recording.captions[0], len(recording)) == (last_alike, len(timeline) - at + 1)
     wanted = tmp_path / "other.rrd"
     assert record_failing(exercise, handed, wanted) == wanted
     assert open_recording(wanted).complete

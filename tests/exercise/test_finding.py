@@ -1,9 +1,11 @@
 """Which exercises a lesson has, and for which a file is handed in: by what it says and defines."""
 
 import dataclasses
+import shutil
 import subprocess
 import sys
 import types
+from pathlib import Path
 
 import pytest
 
@@ -13,7 +15,9 @@ from workbench.exercise import finding
 from workbench.exercise.finding import exercises_in, find_exercise, said_for
 from workbench.exercise.submission import Submission
 from workbench.lesson import catalog, course
+from workbench.run.loading import load
 
+CIRCLE = Path(__file__).parents[1] / "authoring" / "circle"
 NAMES = ("pose", "pose_step", "match")
 
 
@@ -124,6 +128,17 @@ def test_somebody_else_s_exercises_take_none_of_the_course_down(monkeypatch):
     monkeypatch.setattr(finding, "exercises_in_folder", stumbles)
     with pytest.warns(LeftOutWarning, match="the exercises of lesson other .*: SystemExit: 3"):
         assert finding._not_taken(lesson, {}) == ()
+
+
+def test_a_lesson_outside_the_catalogue_has_the_exercises_of_its_folder(tmp_path):
+    assert finding.exercises_of(fake.lesson) == ()
+    shutil.copytree(CIRCLE, tmp_path / "circle")
+    hidden = tmp_path / "circle" / "exercises" / finding.HIDDEN
+    hidden.mkdir()
+    (hidden / "__init__.py").touch()  # it has no checks of this exercise
+    lesson = load(tmp_path / "circle")
+    (exercise,) = finding.exercises_of(lesson)
+    assert exercise.name == "circle_distances"
 
 
 def test_two_lessons_of_the_course_have_no_exercise_of_one_name(monkeypatch):

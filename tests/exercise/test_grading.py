@@ -239,6 +239,10 @@ def test_a_wrong_function_differs_from_a_step_on_with_the_reference_as_ghost():
     assert isinstance(told, Caption)
     assert timeline[1].caption.text.endswith(told.text)
     assert "ghost/source" not in timeline[0].scene
+    pair = timeline[1].state
+    right = Timeline(fake.lesson, fake.Params()).complete()[1].state
+    np.testing.assert_array_equal(pair.ours.T_world_source, right.T_world_source)
+    assert not np.array_equal(pair.theirs.T_world_source, right.T_world_source)
 
 
 def test_a_function_that_fails_becomes_the_caption_and_the_run_ends():

@@ -33,7 +33,7 @@ TOLERANCE = 1e-6  # of the larger of 1 and the size of what is compared
 DIFFERENCE = "exercise/difference"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class StepPair:
     """One step of both runs, drawn once.
 
@@ -102,15 +102,15 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             except Exception as error:
                 trouble, line = _trouble(error, exercise)
                 yield StepPair(
-                    state_ours,
-                    None,
-                    trouble,
-                    line,
-                    float("nan"),
-                    not differed,
-                    beside.called,
-                    scene_ours,
-                    {},
+                    ours=state_ours,
+                    theirs=None,
+                    trouble=trouble,
+                    line=line,
+                    difference=float("nan"),
+                    first=not differed,
+                    called=beside.called,
+                    scene=scene_ours,
+                    ghost={},
                 )
                 return
             difference = gap(scene_ours, scene)
@@ -118,7 +118,15 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             behind = ghost(scene_ours, scene) if differs else {}
             first = differs and not differed
             yield StepPair(
-                state_ours, state, "", 0, difference, first, beside.called, scene, behind
+                ours=state_ours,
+                theirs=state,
+                trouble="",
+                line=0,
+                difference=difference,
+                first=first,
+                called=beside.called,
+                scene=scene,
+                ghost=behind,
             )
             differed = differed or differs
 
