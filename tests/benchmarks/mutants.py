@@ -122,13 +122,18 @@ def _places(tree: ast.Module) -> Iterator[tuple]:
             if field in SKIPPED_FIELDS or isinstance(parent, ast.JoinedStr):
                 continue
             for node in value if isinstance(value, list) else [value]:
-                if not isinstance(node, ast.AST):
+                if not isinstance(node, ast.AST) or _is_for_types(node):
                     continue
                 named = isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
                 waiting.append((node, node.name if named else function))
                 if isinstance(node, ast.expr | ast.stmt):
                     for operator, new in _all_changes(parent, field, node):
                         yield node, new, operator, function
+
+
+def _is_for_types(node: ast.AST) -> bool:
+    """Whether nothing runs what stands here: what is imported for a checker of types alone."""
+    return isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
 
 
 def _all_changes(parent: ast.AST, field: str, node: ast.AST) -> Iterator[tuple[str, ast.AST]]:

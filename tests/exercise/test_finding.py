@@ -89,6 +89,12 @@ def test_where_there_are_no_exercises_that_is_said(monkeypatch):
         exercises_in(of("a.py", "pose"))
 
 
+def test_of_two_names_in_a_file_s_name_the_longer_counts():
+    names = ["step", "pose_step", "pose"]
+    assert finding._in_words("my_pose_step.py", names) == ["pose_step"]
+    assert finding._in_words("step_pose_step.py", names) == ["step", "pose_step"]
+
+
 def test_an_exercise_is_found_by_its_name():
     assert find_exercise("match").name == "match"
     with pytest.raises(InputError, match=r"^no exercise is named 'mach'; did you mean match"):

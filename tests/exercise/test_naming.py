@@ -9,7 +9,7 @@ from tests.exercise.centroid import EXERCISE
 from workbench.exercise.candidate import Returned
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise, check, contract, fail, full, mistake
-from workbench.exercise.naming import _gap, _is_beyond, values_alike
+from workbench.exercise.naming import _alike, _gap, _is_beyond, values_alike
 
 ROWS = np.arange(12.0).reshape(4, 3) ** 2
 
@@ -215,6 +215,17 @@ def test_a_forgotten_error_is_named_only_where_it_is_forgotten_everywhere():
     checks = (asking(ROWS), refuses_both)
     assert report(forgets, forgotten, checks=checks).mistake is forgotten
     assert report(forgets_once, forgotten, checks=checks).mistake is None
+
+
+def test_answers_are_alike_in_any_right_form_and_errors_by_their_names():
+    exercise = replace(EXERCISE, contract=contract(slot="turn", either=lambda value: -value)(mean))
+    right = Returned(1.0, "")
+    alike = [_alike(Returned(value, ""), right, exercise) for value in (1.0, -1.0, 2.0)]
+    assert alike == [True, True, False]
+    no, other = (Returned(None, name) for name in ("ValueError", "IndexError"))
+    assert _alike(no, no, exercise)
+    assert not _alike(no, other, exercise)
+    assert not _alike(right, no, exercise)
 
 
 @pytest.mark.parametrize(
