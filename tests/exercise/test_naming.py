@@ -240,6 +240,7 @@ def test_answers_are_alike_in_any_right_form_and_errors_by_their_names():
         (10**60, False),
         ("1e60", False),
         (np.array([1.0, 1e51]), True),
+        (np.array(["1e51"]), False),
         (np.array([1.0, np.nan, 0.0]), False),
         (np.array([10**18]), False),
     ],
