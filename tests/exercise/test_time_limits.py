@@ -2,16 +2,18 @@
 waits for a processor loses nothing.
 """
 
+import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from tests.exercise.written import POINTS, written
-from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError
+from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError, isolation
 from workbench.exercise.sandbox.pipe import _Deadline
 from workbench.exercise.sandbox.waiting import waited
 
@@ -128,3 +130,18 @@ def test_a_process_that_shares_one_processor_has_waited_for_it():
         for process in pair:
             process.kill()
             process.wait()
+
+
+def test_a_wall_that_does_not_start_in_time_is_told_and_its_process_ended(monkeypatch):
+    started = []
+
+    class Slow:
+        name = "slow"
+
+        def start(self, **_: Any) -> subprocess.Popen:
+            started.append(subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"]))
+            return started[-1]
+
+    monkeypatch.setattr(isolation, "START_SECONDS", 0.2)
+    assert isolation._tried.__wrapped__(Slow()) == "slow does not start within 0.2 s"
+    assert started[0].returncode == -signal.SIGKILL
