@@ -132,16 +132,34 @@ def test_a_process_that_shares_one_processor_has_waited_for_it():
             process.wait()
 
 
+class Trying:
+    """A wall whose process is a few lines of Python, for a child to run in."""
+
+    name = "trying"
+
+    def __init__(self, code: str):
+        self.code = code
+
+    def start(self, *, printed: Any, **_: Any) -> subprocess.Popen:
+        self.process = subprocess.Popen([sys.executable, "-c", self.code], stdout=printed)
+        return self.process
+
+
 def test_a_wall_that_does_not_start_in_time_is_told_and_its_process_ended(monkeypatch):
-    started = []
-
-    class Slow:
-        name = "slow"
-
-        def start(self, **_: Any) -> subprocess.Popen:
-            started.append(subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"]))
-            return started[-1]
-
+    wall = Trying("import time; time.sleep(60)")
     monkeypatch.setattr(isolation, "START_SECONDS", 0.2)
-    assert isolation._tried.__wrapped__(Slow()) == "slow does not start within 0.2 s"
-    assert started[0].returncode == -signal.SIGKILL
+    assert isolation._tried.__wrapped__(wall) == "trying does not start within 0.2 s"
+    assert wall.process.returncode == -signal.SIGKILL
+
+
+@pytest.mark.parametrize(
+    ("code", "why"),
+    [
+        ("exit()", ""),
+        ("print(1); print('no namespaces'); exit(3)", "no namespaces"),
+        ("exit(3)", "exit code 3"),
+    ],
+)
+def test_a_wall_that_cannot_do_its_work_is_told_with_the_last_line_that_it_printed(code, why):
+    told = isolation._tried.__wrapped__(Trying(code))
+    assert told == (why and f"trying cannot do its work here ({why})")
