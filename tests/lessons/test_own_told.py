@@ -82,4 +82,4 @@ def test_a_few_far_points_push_no_cloud_out_of_the_picture(tmp_path):
             + scans.T_world_target[0, 3]
             + np.median(scans.p_source[:, 0])
         ) / 2
-        assert middle == pytest.approx(axes.view.target[0], abs=0.15)
+        assert middle == pytest.approx(axes.views["both"].target[0], abs=0.15)

@@ -8,9 +8,15 @@ from xml.etree.ElementTree import Element
 from workbench.recording.glyphs import safe
 from workbench.words.typeset import math_html
 
-_PARTS = dict.fromkeys(("mfrac", "mover", "msub", "munder", "msup"), 2) | dict.fromkeys(
-    ("msubsup", "munderover"), 3
-)
+_PARTS = {
+    "mfrac": 2,
+    "mover": 2,
+    "msub": 2,
+    "munder": 2,
+    "msup": 2,
+    "msubsup": 3,
+    "munderover": 3,
+}
 """How many parts an element of MathML has; a formula where one lacks stays as it was written."""
 THIN = "\u2009"
 """A space that an author set; others stand about operators, but not in scripts."""
