@@ -42,7 +42,7 @@ ALLOWED = {
     "workbench.geometry": MATHS,
     "workbench.algorithms": MATHS | {"workbench.algorithms"},
     "workbench.data": MATHS | {"workbench.data", "workbench.numerals"},
-    "workbench.cached": {"workbench.errors", "workbench.scene"},
+    "workbench.cached": {"workbench.errors", "workbench.scene", "workbench.tracing"},
     "workbench.captions": {"workbench.scene", "workbench.numerals"},
     "workbench.form": FORM,
     "workbench.form1": FORM,

@@ -1,6 +1,16 @@
 import numpy as np
+import pytest
 
+from lessons.distances.stages import finer_grids, finer_spheres
+from workbench.cached import cached
+from workbench.knobs import Params, knob
+from workbench.lesson import catalog
+from workbench.run.timeline import Timeline
 from workbench.tracing import describe, listening, source_of, traced, untraced
+
+
+class Few(Params):
+    n: int = knob(3, "How many", 1, 9)
 
 
 @traced
@@ -46,6 +56,36 @@ def test_a_run_inside_a_run_can_go_unwatched():
         yield last
 
     assert [m.function.__name__ for m in moments(around())] == ["around", "around"]
+
+
+def test_what_is_kept_reports_nothing_when_it_is_computed_either():
+    @cached
+    def total(params):
+        return sum(square for square, _ in inner(params.n))
+
+    with listening() as last:
+        assert total(Few(n=4)) == 14
+        assert last() is None
+
+
+@pytest.mark.parametrize(
+    ("name", "preset", "kept"),
+    [
+        ("distances", "staircase", finer_grids),
+        ("distances", "points", finer_spheres),
+    ],
+)
+def test_a_step_s_code_does_not_depend_on_what_ran_before(name, preset, kept):
+    lesson = catalog()[name]
+    kept.cache_clear()
+    first, again = (
+        Timeline(lesson, lesson.preset(preset).params).complete().known() for _ in range(2)
+    )
+    for before, after in zip(first, again, strict=True):
+        assert before.moment
+        assert after.moment
+        assert before.moment.function is after.moment.function
+        assert before.moment.line == after.moment.line
 
 
 def test_nobody_listening_records_nothing():

@@ -18,6 +18,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar, overload
 
 from workbench.errors import AuthorError
 from workbench.scene import arrays
+from workbench.tracing import untraced
 
 P = TypeVar("P")
 V = TypeVar("V")
@@ -150,7 +151,8 @@ def cached(function: Any = None, /, *, most: int = 32) -> Any:
         if entry is None:
             reads = _Reads(function)
             try:
-                value = function(watched(bare, reads.note), *rest, **named)
+                with untraced():  # where the value was kept, nothing is reported either
+                    value = function(watched(bare, reads.note), *rest, **named)
             finally:
                 reads.closed = True
                 _tell(outer, reads.names)

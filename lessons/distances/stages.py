@@ -17,7 +17,7 @@ from workbench.errors import InputError
 from workbench.geometry.meshes import Corners, corners, geodesics
 from workbench.geometry.meshes.intrinsic import intrinsic_delaunay
 from workbench.geometry.meshes.laplacian import negative_weights
-from workbench.tracing import traced
+from workbench.tracing import traced, untraced
 
 BANDS = 10
 NEAR = 0.14  # of the largest true distance: nearer than this a relative error says little
@@ -212,6 +212,7 @@ def _over_time(subject: Subject, measured: Corners) -> tuple[np.ndarray, np.ndar
 
 
 @functools.cache
+@untraced()
 def finer_grids() -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Return by method the worst error (%) of distances from a corner over the unit square, over
     the spacing (m).
@@ -234,6 +235,7 @@ def finer_grids() -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 
 @functools.cache
+@untraced()
 def finer_spheres(jitter: float = 0.0) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Return by method the worst error (%) of distances over the unit sphere, over the mean length
     of its edges (m).
