@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.clipping import clip_lines, plane_in_box, segments_inside
@@ -19,8 +19,11 @@ def inside(p: np.ndarray, d: int) -> np.ndarray:
 
 @settings(max_examples=60, deadline=None)
 @given(angle=st.floats(0, 2 * np.pi), offset=st.floats(-3, 3))
+@example(angle=7e-69, offset=1.0)  # along a side
 def test_a_clipped_line_is_what_dense_points_of_it_show(angle, offset):
     line = np.array([np.cos(angle), np.sin(angle), offset])
+    slope = np.abs(line[:2]).min()
+    assume(slope < 1e-13 or slope > 1e-9)  # between these, `inside` takes what is just outside
     along = np.linspace(-6, 6, 4001)[:, None] * [-line[1], line[0]] - offset * line[:2]
     seen = along[inside(along, 2)]
     parts = clip_lines(line[None], LOW[:2], HIGH[:2])

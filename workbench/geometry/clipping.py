@@ -85,7 +85,8 @@ def clip_lines(
     with np.errstate(all="ignore"):
         to_low, to_high = (low - foot) / direction, (high - foot) / direction
     nearer, farther = np.fmin(to_low, to_high), np.fmax(to_low, to_high)
-    parallel = direction == 0.0
+    # over the whole rectangle it comes no farther than rounding: along a side it is all inside
+    parallel = np.abs(direction) < 1e-12
     outside = (parallel & ((foot < low) | (foot > high))).any(axis=1)
     enter = np.where(parallel, -np.inf, nearer).max(axis=1, initial=-np.inf)
     leave = np.where(parallel, np.inf, farther).min(axis=1, initial=np.inf)
