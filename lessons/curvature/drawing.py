@@ -7,14 +7,7 @@ import numpy as np
 from lessons.curvature import ring, row
 from lessons.curvature.captions import caption
 from lessons.curvature.charts import beside
-from lessons.curvature.scales import (
-    DEFECT_SCALE,
-    H_SCALE,
-    K_SCALE,
-    arrow,
-    reach,
-    share_within,
-)
+from lessons.curvature.scales import DEFECT_SCALE, H_SCALE, K_SCALE, arrow, reach, share_within
 from lessons.curvature.state import State
 from workbench.data.thinning import every
 from workbench.geometry.polylines import between

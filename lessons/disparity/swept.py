@@ -10,9 +10,7 @@ from workbench.algorithms.stereo.disparity import usual_penalties
 from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.algorithms.stereo.semiglobal import semi_global
 from workbench.data.views.stereo import StereoPair, grey
-from workbench.scene import (
-    Role,
-)
+from workbench.scene import Role
 
 WINDOWS = (1, 3, 5, 7, 9, 11, 15, 21)
 PRICES = (0.0, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)

@@ -8,15 +8,7 @@ from itertools import islice
 import numpy as np
 
 from lessons.pinhole import following as pinhole
-from lessons.pinhole.following import (
-    STAGES,
-    Center,
-    Distort,
-    Project,
-    Stage,
-    follow,
-    onto_pixels,
-)
+from lessons.pinhole.following import STAGES, Center, Distort, Project, Stage, follow, onto_pixels
 from lessons.pinhole.inputs import Input
 from lessons.pinhole.shot import Shot, wires
 from workbench.geometry.cameras import OPENGL_FROM_OPENCV

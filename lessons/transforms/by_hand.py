@@ -3,15 +3,7 @@
 import numpy as np
 
 from lessons.transforms.drawing import GROUND, above, front, lines, shown
-from lessons.transforms.hands import (
-    SHEARS,
-    SLOPES,
-    TURNS,
-    Held,
-    fronts,
-    moved_by,
-    upright_edges,
-)
+from lessons.transforms.hands import SHEARS, SLOPES, TURNS, Held, fronts, moved_by, upright_edges
 from lessons.transforms.inputs import Body, Input
 from workbench.captions import degrees, fixed, metres
 from workbench.geometry.motions import angle_between

@@ -7,12 +7,7 @@ from lessons.transforms.factors import Built, Ghost
 from lessons.transforms.inputs import FRONT, Body, Input
 from workbench.data.framing import ground_grid
 from workbench.geometry.meshes.invariants import Change
-from workbench.geometry.motions.affine import (
-    is_affine,
-    kind_of,
-    transform,
-    transform_directions,
-)
+from workbench.geometry.motions.affine import is_affine, kind_of, transform, transform_directions
 from workbench.geometry.polylines import segments
 from workbench.lesson import Look
 from workbench.numerals import angle, fixed, length, percent

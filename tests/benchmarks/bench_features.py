@@ -36,12 +36,7 @@ from workbench.data.files import read_cloud, read_pose
 from workbench.data.shapes.rabbit import rabbit
 from workbench.data.thinning import voxel_means
 from workbench.geometry.features.fpfh import fpfh
-from workbench.geometry.features.keypoints import (
-    DERIVE,
-    GATHER,
-    harris_response,
-    iss_keypoints,
-)
+from workbench.geometry.features.keypoints import DERIVE, GATHER, harris_response, iss_keypoints
 from workbench.geometry.features.matching import mutual_matches
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 from workbench.geometry.points.normals import point_normals

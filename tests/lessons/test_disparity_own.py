@@ -10,14 +10,7 @@ from PIL import Image
 from lessons.disparity.inputs import Input
 from lessons.disparity.lesson import lesson
 from lessons.disparity.pairs import MOST_CELLS, pictures_of
-from lessons.disparity.presets import (
-    CHECKED,
-    DEPTH,
-    HOME,
-    LAST,
-    LAST_CHOICE,
-    MOTORCYCLE,
-)
+from lessons.disparity.presets import CHECKED, DEPTH, HOME, LAST, LAST_CHOICE, MOTORCYCLE
 from tests.lessons.disparity_runs import PLANES, states, timeline
 from workbench.algorithms.stereo.cost_volume import sad_cost_volume
 from workbench.algorithms.stereo.disparity_map import winner_takes_all

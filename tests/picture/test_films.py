@@ -17,14 +17,7 @@ from tests import fake
 from workbench.cli import main
 from workbench.errors import InputError
 from workbench.machinery.atomic import write_places
-from workbench.picture.film import (
-    RATE,
-    Frame,
-    between,
-    film_bytes,
-    frames_of,
-    subtitles,
-)
+from workbench.picture.film import RATE, Frame, between, film_bytes, frames_of, subtitles
 from workbench.scene import Points, Scalar
 
 FAKE = str(Path(fake.__file__))

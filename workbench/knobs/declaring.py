@@ -3,10 +3,7 @@
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import (
-    Any,
-    dataclass_transform,
-)
+from typing import Any, dataclass_transform
 
 
 @dataclass(frozen=True)

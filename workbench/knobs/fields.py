@@ -7,15 +7,7 @@ import re
 import types
 from dataclasses import dataclass
 from pathlib import Path
-from typing import (
-    Annotated,
-    Any,
-    Literal,
-    Union,
-    get_args,
-    get_origin,
-    get_type_hints,
-)
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from workbench.errors import InputError
 from workbench.knobs.declaring import Gizmo, Knob, Pick

@@ -2,9 +2,7 @@
 
 import dataclasses
 from collections.abc import Collection, Iterable
-from typing import (
-    Any,
-)
+from typing import Any
 
 from workbench.errors import InputError
 from workbench.knobs.fields import fields_of

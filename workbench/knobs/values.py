@@ -4,10 +4,7 @@ import dataclasses
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import (
-    Any,
-    TypeVar,
-)
+from typing import Any, TypeVar
 
 from workbench.errors import InputError, not_among
 from workbench.knobs.fields import fields_of

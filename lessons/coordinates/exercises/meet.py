@@ -6,15 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.coordinates.exercises import STUDENTS, numbers, row_by_row
-from workbench.exercise import (
-    Function,
-    Verdict,
-    alternative,
-    check,
-    contract,
-    left_alone,
-    mistake,
-)
+from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake
 from workbench.geometry.shapes import projective
 
 

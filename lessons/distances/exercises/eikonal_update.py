@@ -7,15 +7,7 @@ from jaxtyping import Float
 
 from lessons.distances.exercises import STUDENTS, values_verdict
 from workbench.algorithms.surfaces import fast_marching
-from workbench.exercise import (
-    Function,
-    Verdict,
-    alternative,
-    check,
-    contract,
-    left_alone,
-    mistake,
-)
+from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake
 
 Values = Float[np.ndarray, " n"]
 

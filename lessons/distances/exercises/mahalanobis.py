@@ -8,15 +8,7 @@ import scipy
 from jaxtyping import Float
 
 from lessons.distances.exercises import STUDENTS, values_verdict
-from workbench.exercise import (
-    Function,
-    Verdict,
-    alternative,
-    check,
-    contract,
-    left_alone,
-    mistake,
-)
+from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake
 from workbench.geometry.points import metrics
 
 

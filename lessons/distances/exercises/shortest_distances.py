@@ -10,15 +10,7 @@ import scipy
 from jaxtyping import Float, Int
 
 from lessons.distances.exercises import STUDENTS, values_verdict
-from workbench.exercise import (
-    Function,
-    Verdict,
-    alternative,
-    check,
-    contract,
-    left_alone,
-    mistake,
-)
+from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake
 from workbench.geometry.meshes import geodesics
 
 Edges = Int[np.ndarray, "e 2"]

@@ -7,15 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.graphs.exercises import STUDENTS, matrix_verdict, weighted
-from workbench.exercise import (
-    Function,
-    Verdict,
-    alternative,
-    check,
-    contract,
-    left_alone,
-    mistake,
-)
+from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake
 from workbench.geometry.graphs import adjacency as graphs
 
 Inputs = tuple[np.ndarray, np.ndarray, np.ndarray]

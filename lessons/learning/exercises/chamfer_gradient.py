@@ -8,15 +8,7 @@ import scipy
 from jaxtyping import Float
 
 from lessons.learning.exercises import STUDENTS, entries_verdict
-from workbench.exercise import (
-    Function,
-    Verdict,
-    alternative,
-    check,
-    contract,
-    left_alone,
-    mistake,
-)
+from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake
 from workbench.geometry.points import shape_distances
 
 HINT = "2/n (p_i − its nearest q), plus 2/m (p_i − q_j) for every q_j whose nearest is p_i."

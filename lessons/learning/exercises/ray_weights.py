@@ -6,15 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.learning.exercises import STUDENTS, entries_verdict
-from workbench.exercise import (
-    Function,
-    Verdict,
-    alternative,
-    check,
-    contract,
-    left_alone,
-    mistake,
-)
+from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake
 from workbench.geometry.cameras import volume_rendering
 
 HINT = (

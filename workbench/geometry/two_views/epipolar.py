@@ -11,11 +11,7 @@ from jaxtyping import Bool, Float
 
 from workbench.geometry.motions import skew
 from workbench.geometry.refinement import levenberg_marquardt
-from workbench.geometry.two_views.homography import (
-    homogeneous,
-    normalising_similarity,
-    null_vector,
-)
+from workbench.geometry.two_views.homography import homogeneous, normalising_similarity, null_vector
 
 _SMALLEST = 1e-300
 _THIRDS = np.array([0.0, 2.0, -2.0]) * np.pi / 3.0

@@ -3,12 +3,7 @@
 import numpy as np
 
 from lessons.ransac.exercises import GRADERS
-from lessons.ransac.exercises.plane_from_points import (
-    a_triangle,
-    found,
-    no_plane,
-    plane_verdict,
-)
+from lessons.ransac.exercises.plane_from_points import a_triangle, found, no_plane, plane_verdict
 from workbench.exercise import Function, Verdict, check, worst
 from workbench.geometry.motions import exp_so3
 
