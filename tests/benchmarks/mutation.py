@@ -1,8 +1,8 @@
 """How many small changes of our own code its tests notice.
 
     python -m tests.benchmarks.mutation workbench/geometry            # 100 mutants, by --seed
-    python -m tests.benchmarks.mutation workbench/run/timeline.py workbench/run/session.py --mutants
-    50 python -m tests.benchmarks.mutation workbench --again FILE        # what survived, by FILE
+    python -m tests.benchmarks.mutation workbench/run workbench/knobs --mutants 50
+    python -m tests.benchmarks.mutation workbench --again FILE        # what survived, by FILE
     python -m tests.benchmarks.mutation --named "framing.module: number: 0.01"
 
 A mutant is a module with one change (`mutants`). It is killed when its own tests fail, or take far

@@ -5,6 +5,7 @@ import json
 import re
 import sys
 import types
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import pytest
@@ -214,6 +215,13 @@ def test_a_class_is_graded_where_the_scheduler_says(monkeypatch):
         assert classroom._dask_executor("tcp://it", stack) == "its workers"
         assert left == []
     assert len(left) == 1
+
+
+def test_who_runs_elsewhere_is_graded_as_here(tmp_path):
+    write_class(tmp_path / "in", 3)
+    with ThreadPoolExecutor(1) as executor:
+        there = classroom.grade_class(tmp_path / "in", tmp_path / "there", executor=executor)
+    assert there == classroom.grade_class(tmp_path / "in", tmp_path / "here")
 
 
 def test_a_result_s_file_is_named_by_signs_that_every_system_takes():

@@ -17,6 +17,7 @@ from workbench.exercise.grading import grade_file
 from workbench.exercise.marking import Asked, grade_student
 from workbench.exercise.reading import Reader
 from workbench.exercise.reports import terminal
+from workbench.exercise.sandbox import Wall
 from workbench.exercise.starter import starter
 from workbench.exercise.submission import Submission, submission
 from workbench.exercise.submissions import HandIn
@@ -91,9 +92,11 @@ def test_a_module_beside_the_file_is_read_too():
 
 def test_nothing_of_such_a_file_is_run_and_it_earns_nothing():
     text = "import scipy.spatial\nprint('ran')\n" + ANSWER.format("p.mean(0)")
-    report = grade_file(read(text), STRICT)
+    wall = Wall("none")
+    report = grade_file(read(text), STRICT, wall=wall, seed=3)
     assert report.points == 0
     assert report.possible == EXERCISE.points
+    assert (report.wall, report.seed) == (wall, 3)
     assert report.is_refused
     assert report.printed == ""
     assert report.said_once.startswith("my_centroid.py, line 1: uses scipy.spatial")

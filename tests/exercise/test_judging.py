@@ -171,6 +171,7 @@ def test_who_changed_an_array_is_told_which_kind(args, message):
         ([1.0], [1.0, 2.0], "Look."),
         ([], [], "Look."),
         ([np.nan, 1.0], [np.nan, 1.0], "Look."),
+        ([np.inf, 1.0], [np.inf, 2.0], "Yours is (inf, 1), right is (inf, 2). Look."),
         ([np.nan, 1.0, 0, 0, 9], [0.0, 1.0, 0, 0, 0], "[0] is nan, right is 0. Look."),
         ([0.0, 1.0, 9, 0, 0], [0.0, 1.0, 0, 0, 0], "[2] is 9, right is 0. Look."),
         ([0.5, 1.0, 0, -9, 2], [0.0, 1.0, 0, 0, 0], "[3] is −9, right is 0. Look."),

@@ -9,7 +9,14 @@ from tests.exercise.centroid import EXERCISE
 from workbench.exercise.candidate import Returned
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise, check, contract, fail, full, mistake
-from workbench.exercise.naming import _alike, _gap, _is_beyond, values_alike
+from workbench.exercise.naming import (
+    _alike,
+    _gap,
+    _is_apart,
+    _is_beyond,
+    _the_most,
+    values_alike,
+)
 
 ROWS = np.arange(12.0).reshape(4, 3) ** 2
 
@@ -247,3 +254,29 @@ def test_answers_are_alike_in_any_right_form_and_errors_by_their_names():
 )
 def test_ours_are_not_asked_with_numbers_too_large_or_too_small(argument, beyond):
     assert _is_beyond(argument) is beyond
+
+
+def test_of_mistakes_the_one_that_most_speaks_for_is_named_and_of_two_alike_none():
+    little, much, as_much = (
+        EXERCISE.mistakes[0],
+        *(replace(EXERCISE.mistakes[0], sentence=text) for text in ("Much.", "As much.")),
+    )
+    assert _the_most({little: 1, much: 5}, 2) is much
+    assert _the_most({little: 1, much: 5, as_much: 5}, 2) is None
+    assert _the_most({little: 1}, 2) is None
+    assert _the_most({}, 0) is None
+
+
+@pytest.mark.parametrize(
+    ("mistaken", "right", "apart"),
+    [
+        (100.0, [1.0, 1.0495, 0.96], True),  # 0.0495 is near for a size of 1, not of 0.96
+        (100.0, [0.96, 1.04, 1.0], False),  # 0.08 is not
+        (1.045, [1.0, 1.04, 0.96], False),  # nearer to one than a fifth of what they differ by
+    ],
+)
+def test_a_mistake_is_apart_where_it_is_far_from_right_answers_that_are_near_each_other(
+    mistaken, right, apart
+):
+    answers = [Returned(np.array([value]), "") for value in right]
+    assert _is_apart(Returned(np.array([mistaken]), ""), answers) is apart

@@ -8,6 +8,8 @@ import resource
 import subprocess
 import sys
 import textwrap
+import threading
+import time
 
 import pytest
 
@@ -15,7 +17,7 @@ from workbench.errors import InputError
 from workbench.exercise.child import reading
 from workbench.exercise.finding import exercises, exercises_in, said_for
 from workbench.exercise.marking import Asked, chosen
-from workbench.exercise.reading import MOST_LOST, Reader
+from workbench.exercise.reading import MOST_LOST, Reader, _answer
 from workbench.exercise.submission import read_submission
 from workbench.exercise.submissions import HandIn
 
@@ -115,6 +117,25 @@ def test_each_request_may_use_so_many_seconds_of_the_processor():
         check=True,
     )
     assert process.stdout == "{}\n" * 3
+
+
+def test_who_does_not_answer_in_time_is_not_waited_for():
+    silent = subprocess.Popen(
+        [sys.executable, "-c", "import time; time.sleep(5)"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+    ended = threading.Timer(5.0, silent.kill)  # or who waits for it would wait for ever
+    ended.start()
+    with silent:
+        with pytest.raises(TimeoutError):
+            _answer(silent, b"", time.monotonic() + 0.1)
+        silent.kill()
+    ended.cancel()
+
+
+def test_why_a_file_is_no_python_is_told_in_some_500_signs():
+    assert len(reading.read("a" * 600 + ".py", b"(")["broken"]) == 500
 
 
 def test_no_process_stays_behind():

@@ -10,7 +10,7 @@ from tests.exercise.centroid import EXERCISE, centroid
 from workbench.errors import InputError
 from workbench.exercise import reports
 from workbench.exercise.grading import Outcome, Report, grade_function
-from workbench.exercise.model import fail
+from workbench.exercise.model import fail, full
 from workbench.exercise.sandbox import Wall
 
 HALF = grade_function(lambda p: p.mean(axis=0) + 1e-4, EXERCISE, file="my.py", seed=3)
@@ -69,6 +69,16 @@ def test_one_sentence_for_all_checks_is_read_once():
         "It uses scipy.",
         EXERCISE.mistakes[0].sentence,
     ]
+    right = tuple(Outcome(check, full("Right.")) for check in EXERCISE.checks)
+    (test,) = reports.gradescope([replace(REFUSED, outcomes=right)], factors={EXERCISE.name: 2.5})[
+        "tests"
+    ]
+    assert (test["score"], test["max_score"], test["status"]) == (10, 10, "passed")
+
+
+def test_a_result_names_the_version_that_its_schema_describes():
+    schema = json.loads(reports.SCHEMA.read_text(encoding="utf-8"))
+    assert schema["properties"]["schema"]["const"] == reports.SCHEMA_VERSION
 
 
 def test_a_result_is_plain_data():

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,8 @@ import numpy as np
 import pytest
 
 from tests.exercise.written import POINTS, written
-from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError, isolation
+from workbench.exercise.model import contract
+from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError, Wall, isolation
 from workbench.exercise.sandbox.pipe import _Deadline
 from workbench.exercise.sandbox.waiting import waited
 
@@ -94,6 +96,30 @@ def test_who_hangs_in_one_place_is_called_in_all_others(tmp_path):
             student(1000 * POINTS)
         for _ in range(5):
             np.testing.assert_allclose(student(POINTS), [4.5, 5.5, 6.5])
+
+
+def test_a_call_may_take_five_seconds_unless_a_contract_says_otherwise(tmp_path):
+    function = SandboxedFunction(written(tmp_path, "return p").submission, "centroid")
+    assert function._seconds == contract(slot="turn")(lambda p: p).seconds == 5.0
+
+
+def test_a_process_may_use_a_minute_and_twenty_times_a_call_of_the_processor(tmp_path):
+    @dataclass(frozen=True)
+    class Noting(Wall):
+        asked: dict[str, Any] = field(default_factory=dict)
+
+        def start(self, **how: Any) -> subprocess.Popen:
+            self.asked.update(how)
+            raise OSError("nothing starts here")
+
+    wall = Noting("none")
+    given = written(tmp_path, "return p").submission
+    with (
+        SandboxedFunction(given, "centroid", seconds=3.0, megabytes=512, wall=wall) as student,
+        pytest.raises(OSError, match="nothing starts"),
+    ):
+        student(POINTS)
+    assert (wall.asked["cpu_seconds"], wall.asked["megabytes"]) == (60 + 20 * 3, 512)
 
 
 def test_all_calls_together_have_a_bound():
