@@ -4,6 +4,7 @@ all.
 
 import dataclasses
 import functools
+import gc
 import inspect
 import os
 import shutil
@@ -36,7 +37,7 @@ def checked(function_or_class):
     return beartype(conf=BeartypeConf(is_pep484_tower=True))(function_or_class)
 
 
-ENOUGH = 20
+ENOUGH = 4
 """Calls of a function, or of a class, in one test whose shapes are checked; a run makes some
 thousands, all alike.
 """
@@ -143,3 +144,10 @@ def pytest_collection_modifyitems(config, items):
     from tests.workers import rank
 
     items.sort(key=lambda item: rank(item.nodeid))
+
+
+def pytest_collection_finish() -> None:
+    """Look for garbage among what the tests make, not again and again among the tests."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 20, 50)

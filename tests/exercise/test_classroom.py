@@ -220,8 +220,8 @@ def test_a_class_is_graded_where_the_scheduler_says(monkeypatch):
 def test_who_runs_elsewhere_is_graded_as_here(tmp_path):
     write_class(tmp_path / "in", 3)
     with ThreadPoolExecutor(1) as executor:
-        there = classroom.grade_class(tmp_path / "in", tmp_path / "there", executor=executor)
-    assert there == classroom.grade_class(tmp_path / "in", tmp_path / "here")
+        elsewhere = classroom.grade_class(tmp_path / "in", tmp_path / "else", executor=executor)
+    assert elsewhere == classroom.grade_class(tmp_path / "in", tmp_path / "here")
 
 
 def test_a_result_s_file_is_named_by_signs_that_every_system_takes():

@@ -257,10 +257,9 @@ def test_ours_are_not_asked_with_numbers_too_large_or_too_small(argument, beyond
 
 
 def test_of_mistakes_the_one_that_most_speaks_for_is_named_and_of_two_alike_none():
-    little, much, as_much = (
-        EXERCISE.mistakes[0],
-        *(replace(EXERCISE.mistakes[0], sentence=text) for text in ("Much.", "As much.")),
-    )
+    little = EXERCISE.mistakes[0]
+    much = replace(little, sentence="Much.")
+    as_much = replace(little, sentence="As much.")
     assert _the_most({little: 1, much: 5}, 2) is much
     assert _the_most({little: 1, much: 5, as_much: 5}, 2) is None
     assert _the_most({little: 1}, 2) is None

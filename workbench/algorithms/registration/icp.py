@@ -11,7 +11,7 @@ to plane); Chetverikov, Svirko, Stepanov and Krsek, The trimmed iterative closes
 import functools
 import zlib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Literal
 
@@ -190,7 +190,7 @@ def icp(
         n_kept = None if normals_at is None else normals_at(indices[kept])
         stop = Stop.TOO_FEW_MATCHES if np.count_nonzero(kept) < fewest else None
         residual = misfit(p_match, p_moved, n_kept, distances=distances, kept=kept)
-        yield summary(
+        matched = summary(
             "match",
             iteration,
             T_target_source,
@@ -201,6 +201,7 @@ def icp(
             residual=residual,
             stop=stop,
         )
+        yield matched
         if stop:
             return
 
@@ -211,17 +212,7 @@ def icp(
             used = (p.compress(kept, axis=0) for p in (p_match, p_moved))
             T_new = step(*used, n_kept) @ T_target_source  # Low 2004, eq. 10
         if not np.isfinite(T_new).all():
-            yield summary(
-                "fit",
-                iteration,
-                T_target_source,
-                indices=indices,
-                distances=distances,
-                limit=limit,
-                kept=kept,
-                residual=residual,
-                stop=Stop.NOT_FINITE,
-            )
+            yield replace(matched, phase="fit", stop=Stop.NOT_FINITE)
             return
         largest_move = lengths(apply(T_new, corners) - apply(T_target_source, corners)).max()
         # step c: apply the registration
