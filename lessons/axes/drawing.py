@@ -234,15 +234,17 @@ def _matrix(state: State) -> dict[str, Primitive]:
             middle = p + (right + down) / 2 - [0.0, 0.02, 0.0]
             turned = rotated.plane is not None and {i, j} == set(rotated.plane)
             role: Role = "highlight" if turned else "neutral"
-            scene[f"matrix/{i}{j}"] = Label(fixed(CM2 * rotated.A[i, j], 0), middle, role)
+            scene[f"matrix/{i}{j}"] = Label(
+                fixed(CM2 * rotated.A[i, j], 0), middle, role, stays=True
+            )
     faces = np.concatenate(
         [[[4 * k, 4 * k + 1, 4 * k + 2], [4 * k, 4 * k + 2, 4 * k + 3]] for k in range(9)]
     )
     for k, name in enumerate("xyz"):
         across, below = MATRIX + (k + 0.5) * right, MATRIX + (k + 0.5) * down
-        scene[f"matrix/{name} across"] = Label(name, across - 0.2 * down, COLORS[k])
-        scene[f"matrix/{name} down"] = Label(name, below - 0.2 * right, COLORS[k])
-    scene["matrix/unit"] = Label("covariance, cm²", MATRIX + 1.5 * right - 0.5 * down, "neutral")
+        scene[f"matrix/{name} across"] = Label(name, across - 0.3 * down, COLORS[k], stays=True)
+        scene[f"matrix/{name} down"] = Label(name, below - 0.3 * right, COLORS[k], stays=True)
+    scene["matrix/unit"] = Label("covariance, cm²", MATRIX + 1.5 * right - 0.6 * down, "neutral")
     colors = np.repeat(color_map("diverging", np.array(levels)), 4, axis=0)
     name = "covariance in the frame, cm²"
     return scene | {"cells": Mesh(np.concatenate(corners), faces, colors, flat=True, name=name)}

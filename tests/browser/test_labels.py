@@ -115,6 +115,29 @@ def test_a_word_goes_out_of_the_way_of_the_page_s_buttons(fed):
     assert fed(WORDS)["w"][:2] == [left, top]
 
 
+def test_a_word_that_stays_is_centred_at_its_place_and_others_go_out_of_its_way(fed):
+    nearer = 0.2 * np.array(BARE.eye)
+    show(
+        fed,
+        {
+            "a": Label("244", np.zeros(3), stays=True),
+            "b": Label("67", np.array([0.02, 0.0, 0.0]), stays=True),
+            "word": Label("word", nearer),
+        },
+    )
+    R = seen_from(BARE.seen_from(), np.array(BARE.target), np.array(BARE.up))
+    boxes = fed(WORDS)
+    for name, p in (("a", np.zeros(3)), ("b", np.array([0.02, 0.0, 0.0]))):
+        u, v, _ = pixel(p, BARE.seen_from(), R, fov=np.radians(BARE.fov_degrees))
+        left, top, width, height = boxes[name]
+        assert left + width / 2 == pytest.approx(u, abs=0.51)
+        assert top + height / 2 == pytest.approx(v, abs=0.51)
+    u, v, _ = pixel(nearer, BARE.seen_from(), R, fov=np.radians(BARE.fov_degrees))
+    _, top, _, height = boxes["word"]
+    assert abs(top + height + 2 - v) > height / 2, "it would cover them where it belongs"
+    assert top + height <= boxes["a"][1] or top >= boxes["a"][1] + boxes["a"][3]
+
+
 @pytest.mark.parametrize("up", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0)])
 @pytest.mark.parametrize("eye", [(2.0, -2.0, 1.5), (-0.5, 0.2, -3.0), (0.1, 4.0, 0.0)])
 def test_before_the_client_tells_its_camera_it_is_that_of_the_view(fed, eye, up):

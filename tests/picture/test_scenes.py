@@ -79,6 +79,19 @@ def test_words_at_one_place_do_not_cover_each_other():
     assert (np.diff(tops) >= rects[0, 3] - 0.1).all()
 
 
+def test_a_word_that_stays_is_centred_at_its_place_and_others_go_out_of_its_way():
+    near, a, b = boxes(
+        [
+            Word(text="near", p=np.array([0.0, -1.0, 0.0])),
+            Word(text="244", p=np.zeros(3), stays=True),
+            Word(text="67", p=np.array([0.02, 0.0, 0.0]), stays=True),
+        ]
+    )[[2, 0, 1]]
+    assert a[1] + a[3] / 2 == pytest.approx(125, abs=0.06)
+    assert b[1] == a[1]
+    assert near[1] + near[3] <= a[1] + 0.1 or near[1] >= a[1] + a[3] - 0.1
+
+
 def test_a_word_at_the_side_is_whole_and_one_outside_is_left_out():
     (box,) = boxes([Word(text="a long word at the side", p=np.array([3.25, 0.0, 0.0]))])
     assert box[0] + box[2] <= 400.1

@@ -23,7 +23,7 @@ def labels_svg(words: Iterable[Word], lens: Lens, theme: Theme) -> str:
     """Return words over a scene as the inside of an SVG of the lens's size.
 
     One whose place is outside the picture is left out; one that would be cut at a side is moved
-    inwards.
+    inwards. Those that stay in their places have them first.
     """
     width, height = lens.size
     visible = []
@@ -33,11 +33,14 @@ def labels_svg(words: Iterable[Word], lens: Lens, theme: Theme) -> str:
             visible.append((float(depth), float(uv[0]), float(uv[1]), word))
     taken: list[_Box] = []
     parts = []
-    for _, u, v, word in sorted(visible, key=lambda item: item[0]):
+    for _, u, v, word in sorted(visible, key=lambda item: (not item[3].stays, item[0])):
         wide = letters.width(word.text, SIZE, letters.BOLD) + 2 * EDGE
         left = min(max(u - wide / 2, 0.0), max(0.0, width - wide))
-        top = v - LINE / 2 if word.small else v - LINE - 2
-        places = [min(max(top + shift * LINE, 0.0), height - LINE) for shift in SHIFTS]
+        top = v - LINE / 2 if word.small or word.stays else v - LINE - 2
+        places = [
+            min(max(top + shift * LINE, 0.0), height - LINE)
+            for shift in (SHIFTS[:1] if word.stays else SHIFTS)
+        ]
         free = (y for y in places if not any(_cross((left, y, wide, LINE), box) for box in taken))
         top = next(free, places[0])
         taken.append((left, top, wide, LINE))

@@ -91,12 +91,13 @@ class Sheet:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Word:
-    """A word at a place `p` (3,), metres; a small one stands in the middle of it."""
+    """A word at a place `p` (3,), metres; a small one, and one that stays there, in its middle."""
 
     text: str
     p: np.ndarray
     opacity: float = 1.0
     small: bool = False
+    stays: bool = False
     framed: bool = True
 
 
@@ -212,7 +213,8 @@ def _camera(camera: Camera) -> Iterator[Shape]:
 
 @_shapes.register
 def _label(label: Label) -> Iterator[Shape]:
-    yield Word(text=label.text, p=_placed(label.p, label.T_world_object), opacity=label.opacity)
+    p = _placed(label.p, label.T_world_object)
+    yield Word(text=label.text, p=p, opacity=label.opacity, stays=label.stays)
 
 
 @_shapes.register

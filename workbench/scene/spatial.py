@@ -136,13 +136,17 @@ class Camera:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """A word in space at `p` (3,)."""
+    """A word in space at `p` (3,): above it, and moved where words would cover each other.
+
+    One that `stays`, such as a number in its cell, is centred at `p`; others go out of its way.
+    """
 
     text: str
     p: np.ndarray
     color: Role = "neutral"
     T_world_object: np.ndarray | None = None
     opacity: float = 1.0
+    stays: bool = False
 
     def __post_init__(self) -> None:
         check_text("Label.text", self.text)

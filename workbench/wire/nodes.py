@@ -117,7 +117,7 @@ class Maker:
             [*listener.at_first, *listener.heard(lambda scene: add_stage(scene, view))]
         )
         for name, place in axis_names(view):
-            nodes[f"/axis/{name}"] = self._word(name, small=True), place_of(place, None)
+            nodes[f"/axis/{name}"] = self._word(name, "small"), place_of(place, None)
         return StageNodes(nodes, tuple(light))
 
     def _listener(self) -> Hearing:
@@ -137,7 +137,8 @@ class Maker:
 
     def _new(self, primitive: Spatial) -> dict[str, Node]:
         if isinstance(primitive, Label):
-            word = self._word(primitive.text, fade=primitive.opacity)
+            how = ("stays",) if primitive.stays else ()
+            word = self._word(primitive.text, *how, fade=primitive.opacity)
             return {"": (word, place_of(primitive.p, primitive.T_world_object))}
         nodes, _ = self._nodes(
             self._listener().heard(lambda scene: add(scene, primitive)), fade=primitive.opacity
@@ -148,10 +149,9 @@ class Maker:
             for name, (kind, at) in nodes.items()
         }
 
-    def _word(self, text: str, *, small: bool = False, fade: float = 1.0) -> NodeKind:
-        return self._kind(
-            "Label", {"text": text, **({"small": True} if small else {})}, [], fade=fade
-        )
+    def _word(self, text: str, *how: str, fade: float = 1.0) -> NodeKind:
+        """Return a word, and how it is shown: `small`, or one that `stays`."""
+        return self._kind("Label", {"text": text, **dict.fromkeys(how, True)}, [], fade=fade)
 
     def _nodes(self, heard: Heard, fade: float = 1.0) -> tuple[dict[str, Node], list[Said]]:
         """Return what was heard as nodes, and what was said of no node."""

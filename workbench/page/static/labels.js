@@ -20,7 +20,7 @@ const labels = {
     for (const [name, word] of this.words) if (!this.nodes.has(name)) { word.remove(); this.words.delete(name); }
     for (const [name, { props }] of this.nodes) {
       if (!this.words.has(name)) {
-        const word = element("span", { className: props.small ? "small" : "" });
+        const word = element("span", { className: props.small ? "small" : props.stays ? "stays" : "" });
         this.words.set(name, word);
         $("#labels").append(word);
       }
@@ -41,16 +41,16 @@ const labels = {
     const { clientWidth: width, clientHeight: height } = stage.frame, focal = height / 2 / Math.tan(this.camera.fov / 2);
     const found = [...this.nodes].map(([name, node]) => {
       const [x, y, z] = turnedBack(this.camera.wxyz, (node.at ?? node).position.map((value, i) => value - this.camera.position[i]));
-      return { word: this.words.get(name), z, u: width / 2 + (focal * x) / z, v: height / 2 + (focal * y) / z, small: node.props.small };
+      return { word: this.words.get(name), z, u: width / 2 + (focal * x) / z, v: height / 2 + (focal * y) / z, ...node.props };
     });
     const taken = buttons(stage.frame);
-    for (const { word, z, u, v, small } of found.sort((a, b) => a.z - b.z)) {
+    for (const { word, z, u, v, small, stays } of found.sort((a, b) => !a.stays - !b.stays || a.z - b.z)) {
       word.hidden = !(z > 1e-6) || u < -50 || v < -50 || u > width + 50 || v > height + 50;
       if (word.hidden) continue;
       const box = { width: word.offsetWidth, height: word.offsetHeight };
-      const top = small ? v - box.height / 2 : v - box.height - 2;
+      const top = small || stays ? v - box.height / 2 : v - box.height - 2;
       const left = u < 0 || u > width ? u - box.width / 2 : within(u - box.width / 2, width - box.width);
-      const free = SHIFTS.find((shift) => !taken.some((other) => crosses({ ...box, left, top: top + shift * box.height }, other))) ?? 0;
+      const free = SHIFTS.find((shift) => stays || !taken.some((other) => crosses({ ...box, left, top: top + shift * box.height }, other))) ?? 0;
       taken.push({ ...box, left, top: top + free * box.height });
       word.style.transform = `translate(${left}px, ${top + free * box.height}px)`;
     }
