@@ -185,3 +185,7 @@ def test_a_call_is_known_again_by_what_was_asked():
     assert first == again
     assert first not in others
     assert len({hash(key) for key in others}) == 2
+
+
+def test_where_ours_gives_no_answer_theirs_is_left_as_it_is():
+    assert held_to_contract("any", None, "f") == "any"

@@ -229,6 +229,7 @@ def test_a_result_s_file_is_named_by_signs_that_every_system_takes():
     stems = classroom.stems(dict.fromkeys(names))
     assert [name for name in names if stems[name] == name] == ["ada", "é.-"]
     assert all(re.fullmatch(r"[\w.-]{1,89}", stem) for stem in stems.values())
+    assert len(stems["x" * 99]) == 80 + 1 + 8
     assert len({stem.casefold() for stem in stems.values()}) == len(names)
     assert stems["z?"].startswith("z_-")
     assert classroom.stems({"a_b": None}) == {"a_b": "a_b"}

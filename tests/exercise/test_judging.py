@@ -175,6 +175,7 @@ def test_who_changed_an_array_is_told_which_kind(args, message):
         ([np.nan, 1.0, 0, 0, 9], [0.0, 1.0, 0, 0, 0], "[0] is nan, right is 0. Look."),
         ([0.0, 1.0, 9, 0, 0], [0.0, 1.0, 0, 0, 0], "[2] is 9, right is 0. Look."),
         ([0.5, 1.0, 0, -9, 2], [0.0, 1.0, 0, 0, 0], "[3] is −9, right is 0. Look."),
+        ([0.0, 1, 9, 0], [0.0, 1, 0, 0], "Yours is (0, 1, 9, 0), right is (0, 1, 0, 0). Look."),
         (3.0, 4.0, "Yours is 3, right is 4. Look."),
         ([3.0, 1.0], [4.0, 1.0], "Yours is (3, 1), right is (4, 1). Look."),
         ([[1.0, 2], [3, 9], [5, 6]], [[1.0, 2], [3, 4], [5, 6]], "Row 1 is (3, 9), right is"),

@@ -46,6 +46,8 @@ def test_a_text_that_is_no_python_is_told_with_its_line():
             load(source, "my.py", "f", modules={})
         assert told(caught.value, "my.py")["line"] == line
         assert told(caught.value, "other.py")["line"] == 0
+    nowhere = SyntaxError("bad", ("my.py", None, None, None))
+    assert told(nowhere, "my.py")["line"] == 0
 
 
 def test_a_file_must_define_the_function():
@@ -64,6 +66,11 @@ def test_modules_beside_the_file_are_imported_before_any_others():
     finally:
         for name in beside:
             sys.modules.pop(name, None)
+    source = "import __hello__\ndef f():\n    return __hello__.name"
+    try:  # Python has one of that name in itself
+        assert load(source, "my.py", "f", modules={"__hello__": "name = 'own'"})() == "own"
+    finally:
+        sys.modules.pop("__hello__", None)
     spec = Beside(beside).find_spec("other")
     assert spec is not None
     assert spec.origin == "other.py"

@@ -55,7 +55,7 @@ def refuses(candidate):
     return fail("An answer.")
 
 
-def report(student, *mistakes, checks=(), either=None) -> Report:
+def report(student, *mistakes, checks=(), either=None, alternatives=()) -> Report:
     exercise = Exercise(
         name="mean",
         lesson="fake",
@@ -63,6 +63,7 @@ def report(student, *mistakes, checks=(), either=None) -> Report:
         contract=contract(slot="turn", either=either)(mean),
         checks=checks or (asking(ROWS), refuses),
         mistakes=mistakes,
+        alternatives=alternatives,
     )
     return grade_function(student, exercise)
 
@@ -150,6 +151,17 @@ def test_the_other_right_answer_is_no_mistake():
     minus = mistake("You turned it round.")(turned)
     assert report(turned, minus).mistake is minus
     assert report(turned, minus, either=lambda value: -value).mistake is None
+
+
+def test_where_other_answers_are_right_too_a_mistake_is_named_that_is_far_from_all():
+    def nearly(p):
+        return 1.01 * mean(p)
+
+    def far(p):
+        return -mean(p)
+
+    assert report(of_sum, PLAIN, alternatives=(nearly,)).mistake is PLAIN
+    assert report(of_sum, PLAIN, alternatives=(far,)).mistake is None
 
 
 @pytest.mark.parametrize(

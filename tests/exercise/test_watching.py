@@ -208,8 +208,12 @@ def test_a_run_that_does_not_call_the_function_says_so():
     paired = driven(lesson, exercise, exercise.reference)
     idle = Timeline(paired, lesson.params())
     calling = Timeline(paired, lesson.preset("plane").params)
-    idle.extend()
     assert calls_it(idle) is None  # nobody knows yet
+    idle.extend()
+    assert calls_it(idle) is None
+    plain = Timeline(lesson, lesson.params())
+    plain.extend()
+    assert calls_it(plain) is None  # a run of ours calls ours
     assert calls_it(idle.complete()) is False
     assert DIFFERENCE not in idle.series()  # nothing is compared
     while len(calling) < 3:

@@ -133,3 +133,10 @@ def test_lists_cross_eight_deep():
     deeper = data[16:].replace(b'{"l": []}', b'{"l": [{"l": []}]}')
     with pytest.raises(WireError, match="not a message"):
         unpack(deeper, b"")
+
+
+def test_an_array_that_did_not_come_whole_is_refused():
+    data = pack({"value": [np.zeros(2), np.zeros(3)]})
+    header, _ = lengths(data[:16])
+    with pytest.raises(WireError, match="longer than what came"):
+        unpack(data[16 : 16 + header], data[16 + header : -8])
