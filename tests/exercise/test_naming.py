@@ -15,6 +15,7 @@ from workbench.exercise.naming import (
     _is_apart,
     _is_beyond,
     _the_most,
+    _wrong_entries,
     values_alike,
 )
 
@@ -291,3 +292,11 @@ def test_a_mistake_is_apart_where_it_is_far_from_right_answers_that_are_near_eac
 ):
     answers = [Returned(np.array([value]), "") for value in right]
     assert _is_apart(Returned(np.array([mistaken]), ""), answers) is apart
+
+
+def test_wrong_entries_are_counted_and_a_single_number_is_noted():
+    numbers = set[float]()
+    assert _wrong_entries([1.0, np.nan, 2.0], [1.0, np.nan, 3.0], numbers) == 1
+    assert numbers == set()
+    assert _wrong_entries(2.5, 3.0, numbers) == 0
+    assert numbers == {2.5}

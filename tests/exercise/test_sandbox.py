@@ -216,6 +216,17 @@ def test_an_error_names_the_students_own_line(student):
     assert caught.value.line == 5
 
 
+def test_of_what_a_process_says_of_an_error_so_much_is_taken(student):
+    reply = {"error": "E" * 99, "message": "m" * 999, "errors": ["N" * 99] * 20, "line": 3}
+    function = student("return p")
+    error = function.raised(reply, loading=False)
+    assert error.error == "E" * 80
+    assert error.errors == ("N" * 80,) * 12
+    assert str(error).endswith(f"line 3: centroid raised {'E' * 80}: {'m' * 500}")
+    loading = function.raised(reply | {"line": True}, loading=True)
+    assert str(loading).endswith(f".py: the file does not load: {'E' * 80}: {'m' * 500}")
+
+
 def test_nothing_is_left_behind(student, tmp_path):
     function = student("return p[0]")
     function(POINTS)
