@@ -150,4 +150,4 @@ def pytest_collection_finish() -> None:
     """Look for garbage among what the tests make, not again and again among the tests."""
     gc.collect()
     gc.freeze()
-    gc.set_threshold(20_000, 20, 50)
+    gc.set_threshold(20_000, 20)

@@ -224,7 +224,9 @@ def test_it_plays_without_a_server_and_keeps_its_theme(chromium, tmp_path):
     assert numbers(page) != before
     assert page.locator("#begin").get_attribute("href") == f"{TINY.name}/index.html"
     page.locator("#begin").click()
-    page.wait_for_function("typeof LESSON !== 'undefined'")
+    page.wait_for_function(
+        "name => typeof kept !== 'undefined' && kept.get('last') === name", arg=TINY.name
+    )
     page.go_back()
     page.locator(f"[data-card={TINY.name}] .done", has_text="✓ opened").wait_for()
     published = json.loads((tmp_path / ".published.json").read_text())["lessons"][TINY.name]
