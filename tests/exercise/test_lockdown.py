@@ -5,10 +5,13 @@ import errno
 import importlib
 import json
 import os
+import signal
 import subprocess
 import sys
 import textwrap
+import time
 from collections.abc import Iterator
+from pathlib import Path
 from types import ModuleType
 
 import pytest
@@ -170,3 +173,43 @@ def test_landlock_s_first_versions_hold_files_with_the_filter(shut, tmp_path, ve
     """
     assert set(shut(TRIED + textwrap.dedent(lines), str(mine))) <= {"1", "13"}
     assert mine.read_text() == "full"
+
+
+GRADER = """
+import os, signal, sys, threading, time
+from pathlib import Path
+import numpy as np
+from workbench.exercise.sandbox import SandboxedFunction, Wall
+
+student = SandboxedFunction(Path(sys.argv[1]), "centroid", seconds=60.0, wall=Wall("none"))
+student.start()
+threading.Thread(target=student, args=(np.ones((2, 3)),), daemon=True).start()
+time.sleep(0.5)
+print(student._process.pid, flush=True)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the kernel of Linux ends it")
+def test_who_is_graded_does_not_outlive_the_grader(tmp_path):
+    file = tmp_path / "my_centroid.py"
+    file.write_text("def centroid(p):\n    while True:\n        pass\n")
+    ended = subprocess.run(
+        [sys.executable, "-c", GRADER, str(file)], capture_output=True, text=True
+    )
+    child = Path("/proc", ended.stdout.strip(), "stat")
+    assert ended.stdout.strip().isdecimal(), ended.stderr
+
+    def lives() -> bool:
+        try:
+            return child.read_text().rpartition(")")[2].split()[0] != "Z"
+        except OSError:
+            return False
+
+    for _ in range(100):
+        if not lives():
+            break
+        time.sleep(0.05)
+    else:
+        os.kill(int(ended.stdout), signal.SIGKILL)
+        pytest.fail("it goes on")
