@@ -50,10 +50,11 @@ def test_an_angle_between_rotations_is_exact_about_every_axis(axis, degrees):
         (2.0 * np.eye(3), 0.0, "R is no rotation: .* by 3, its determinant is 8, right is 1"),
         (np.diag([2.0, 1.0, -0.5]), 0.0, "R is no rotation: .*determinant is −1, right is 1"),
         (np.diag([2.0, 1.0, 0.5]), 0.0, r"R is no rotation: .* identity by 3\. "),
+        ([[1.0, 1, 1], [0, 1, 0], [0, 0, 1]], 0.0, r"R\^T R differs from the identity by 1\. "),
     ],
 )
 def test_a_rotation_is_judged_by_its_angle_and_must_be_one(R, share, message):
-    verdict = rotation_verdict(R, np.eye(3), "Look.")
+    verdict = rotation_verdict(np.array(R), np.eye(3), "Look.")
     assert verdict.share == share
     assert re.search(message, verdict.message)
     assert share == 1.0 or verdict.message.endswith("Look.")
