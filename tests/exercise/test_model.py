@@ -148,3 +148,7 @@ def test_a_contract_knows_what_else_is_right():
     assert made(lambda x: [-x, x + 1]).others(3) == [-3, 4]
     assert made(lambda x: x + "a").others(3) == []
     assert made(None)(-3) == 3
+
+
+def test_an_answer_of_nothing_is_told_beside_nothing():
+    assert against((), ()) == "(), right is ()"

@@ -223,6 +223,9 @@ def test_of_what_a_process_says_of_an_error_so_much_is_taken(student):
     assert error.error == "E" * 80
     assert error.errors == ("N" * 80,) * 12
     assert str(error).endswith(f"line 3: centroid raised {'E' * 80}: {'m' * 500}")
+    unwritten = function.raised(reply | {"error": "NotImplementedError"}, loading=False)
+    assert str(unwritten).endswith("line 3: centroid is not written yet")
+    assert unwritten.line == 3
     loading = function.raised(reply | {"line": True}, loading=True)
     assert str(loading).endswith(f".py: the file does not load: {'E' * 80}: {'m' * 500}")
 
