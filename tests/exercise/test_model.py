@@ -152,3 +152,8 @@ def test_a_contract_knows_what_else_is_right():
 
 def test_an_answer_of_nothing_is_told_beside_nothing():
     assert against((), ()) == "(), right is ()"
+
+
+def test_an_answer_is_told_with_four_digits_unless_more_tell_it_from_the_right_one():
+    assert against(1 / 3, 0.5) == "0.3333, right is 0.5"
+    assert against(1 / 3, 0.33334) == "0.33333, right is 0.33334"
