@@ -134,3 +134,12 @@ def test_modules_beside_a_file_are_read_with_it_up_to_twenty():
     assert list(submission("my.py", many, files.get, reader=Reads()).modules) == [
         f"m{k}" for k in range(20)
     ]
+
+
+def test_a_folder_that_is_named_like_an_archive_is_a_folder(tmp_path):
+    (tmp_path / "ada.zip").mkdir()
+    (tmp_path / "ada.zip" / "my_match.py").write_text("x = 1\n")
+    ((name, handed),) = handed_in(tmp_path).items()
+    assert name == "ada.zip"
+    assert list(handed.files) == ["my_match.py"]
+    assert handed.troubles == ()
