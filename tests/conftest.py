@@ -37,7 +37,7 @@ def checked(function_or_class):
     return beartype(conf=BeartypeConf(is_pep484_tower=True))(function_or_class)
 
 
-ENOUGH = 4
+ENOUGH = 20
 """Calls of a function, or of a class, in one test whose shapes are checked; a run makes some
 thousands, all alike.
 """

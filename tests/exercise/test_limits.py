@@ -45,7 +45,7 @@ def test_the_table_says_what_the_code_has():
         "files that it writes, in bubblewrap": f"{bubblewrap.FOLDER_BYTES / MEGABYTE:g} MB",
         "what it prints": f"{isolation.OUTPUT_BYTES / 1024:g} kB are kept,"
         f" {reports.PRINTED_LINES} lines of {reports.PRINTED_SIGNS} signs shown",
-        "one message, here or there": f"{wire.MOST_BYTES / MEGABYTE:g} MB, of it"
+        "a message to or from its process": f"{wire.MOST_BYTES / MEGABYTE:g} MB, of it"
         f" {wire.MOST_HEADER / MEGABYTE:g} MB that describe {wire.MOST_PARTS:,} parts",
         "waiting for a processor": f"{pipe.MOST_TIMES:g} times as long",
         "a student in a class": f"{classroom.LONGEST_SECONDS:g} s",

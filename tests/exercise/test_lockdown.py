@@ -11,12 +11,12 @@ import sys
 import textwrap
 import time
 from collections.abc import Iterator
-from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 from tests.exercise import kernel
+from tests.exercise.processes import family
 from workbench.errors import InputError
 from workbench.exercise.sandbox import named, python
 
@@ -197,19 +197,12 @@ def test_who_is_graded_does_not_outlive_the_grader(tmp_path):
     ended = subprocess.run(
         [sys.executable, "-c", GRADER, str(file)], capture_output=True, text=True
     )
-    child = Path("/proc", ended.stdout.strip(), "stat")
     assert ended.stdout.strip().isdecimal(), ended.stderr
-
-    def lives() -> bool:
-        try:
-            return child.read_text().rpartition(")")[2].split()[0] != "Z"
-        except OSError:
-            return False
-
+    pid = int(ended.stdout)
     for _ in range(100):
-        if not lives():
+        if not family(pid):
             break
         time.sleep(0.05)
     else:
-        os.kill(int(ended.stdout), signal.SIGKILL)
+        os.kill(pid, signal.SIGKILL)
         pytest.fail("it goes on")

@@ -20,7 +20,7 @@ const labels = {
     for (const [name, word] of this.words) if (!this.nodes.has(name)) { word.remove(); this.words.delete(name); }
     for (const [name, { props }] of this.nodes) {
       if (!this.words.has(name)) {
-        const word = element("span", { className: props.small ? "small" : props.stays ? "stays" : "" });
+        const word = element("span", { className: ["small", "stays"].filter((how) => props[how]).join(" ") });
         this.words.set(name, word);
         $("#labels").append(word);
       }
